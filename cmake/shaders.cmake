@@ -1,0 +1,1 @@
+# Filled by shaders/: build-time SPIR-V, see mote_shader() there.
