@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Particles as renderers hold them: runs of up to 64 in Morton order ("chunks"), each with a
+// double-precision origin and a box; records are float32 and relative to that origin. One structure
+// serves placement far from the origin, culling, sorting, picking and the reference's top level.
+//
+// A record is `vec4s_per_record` vec4s; the first is always (center relative to the chunk's origin,
+// radius of a bounding sphere; for a sphere: its radius). Chunk c owns the records
+// [64 c, 64 c + count); unused places hold radius 0 and draw as nothing.
+#pragma once
+
+#include "core/math/camera.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mote {
+
+constexpr std::uint32_t chunk_capacity = 64;
+constexpr std::uint32_t no_row = 0xFFFFFFFFu; // in ChunkSet::rows: an unused place
+
+struct Chunk {
+  glm::dvec3 origin{0};               // in the data set's own space
+  glm::vec3 box_min{0}, box_max{0};   // relative to origin, radii included
+  std::uint32_t count{};              // records in use, <= chunk_capacity
+};
+
+struct ChunkSet {
+  std::uint32_t vec4s_per_record{1};
+  std::vector<glm::vec4> records{};   // chunks.size() * 64 * vec4s_per_record
+  std::vector<std::uint32_t> rows{};  // per record: row in the file, or no_row
+  std::vector<std::uint32_t> colors{}; // per record: sRGB-encoded straight RGBA, 8 bits each, R lowest; empty: the batch's color
+  std::vector<Chunk> chunks{};
+  Bounds bounds{};                    // of all particles with radii, data set space
+  [[nodiscard]] std::uint64_t record_count() const { return chunks.size() * std::uint64_t{chunk_capacity}; }
+  // The exact center of a record: what the renderer's float32 record means.
+  [[nodiscard]] glm::dvec3 center(std::uint64_t record) const {
+    return chunks[record / chunk_capacity].origin + glm::dvec3(records[record * vec4s_per_record]);
+  }
+};
+
+// Spheres. `rows[i]` is the row in the file of particle i; `colors` may be empty. Positions and radii must be
+// finite and radii > 0: the caller has left out (and counted) the rest. Deterministic; uses all cores.
+ChunkSet build_spheres(std::span<const glm::dvec3> centers, std::span<const double> radii,
+                       std::span<const std::uint32_t> rows, std::span<const std::uint32_t> colors);
+
+} // namespace mote

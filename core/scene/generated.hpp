@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Scenes by name, for measurements that others can repeat: seeded particles in the cube [-50,50]^3,
+// one of three cameras, a head light, a white background. The numbers are those of the
+// benchmark generator, float for float.
+//
+//   spheres:N:fit|fill|inside[:seed=S][:frame=K]       N: 1000, 1e5, 2.5e6, ... up to 1e8
+//
+// fit sees the whole cube, fill stands so near that every pixel is hit, inside stands in the cloud and cuts at
+// near = 1 (the others need no cut: nothing lies before their near plane or behind their far plane). Frame k
+// turns the camera by 0.5 k degrees about the vertical. Colors: a palette of eight, by id modulo 8, sRGB-encoded.
+#pragma once
+
+#include "core/base/diagnostic.hpp"
+#include "core/math/camera.hpp"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mote {
+
+enum class GeneratedCamera : std::uint8_t { Fit, Fill, Inside };
+struct GeneratedName {
+  std::uint64_t count{};
+  GeneratedCamera camera{GeneratedCamera::Fit};
+  std::uint64_t seed{1};
+  std::int64_t frame{0};
+};
+
+// True when the word before the first ':' is one that generates ("spheres", "sticks").
+bool is_generated_name(std::string_view name);
+// Throws Failure (Usage, S019 or S020) for a name that cannot be understood or made.
+GeneratedName parse_generated_name(std::string_view name);
+
+struct GeneratedSpheres { // every value is a float32
+  std::vector<double> positions{}; // x y z of each
+  std::vector<double> radii{};
+};
+GeneratedSpheres generate_spheres(std::uint64_t count, std::uint64_t seed);
+
+Camera generated_camera(const GeneratedName& name);
+
+// The camera turned about its up axis through its target, counter-clockwise seen from above, by `degrees`.
+Camera turned(const Camera& camera, double degrees);
+constexpr double degrees_per_frame = 0.5; // of generated scenes and of `mote bench`
+
+extern const std::array<std::array<double, 3>, 8> generated_palette; // sRGB-encoded, 0..1
+
+} // namespace mote

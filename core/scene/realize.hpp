@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// From what a user says (SceneDesc) to what is drawn (Scene): reads the particle files, gives each
+// particle its radius and color, leaves out what cannot be drawn and says how much that was, and
+// completes the camera.
+//
+// Radius, first that applies: the scene's own; the file's `radius`; the van der Waals radius of the element
+// (Bondi, for metals Alvarez; Angstrom, or nm where the positions are nm); half the median distance of nearest
+// neighbors; 0.5 where no two particles differ.
+// Color, first that applies: the scene's own; the file's `color`; Jmol's color of the element; OVITO's color of the
+// type; 0.8 gray (linear). File and table colors are sRGB-encoded.
+#pragma once
+
+#include "core/data/dataset.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/scene_file.hpp"
+
+namespace mote {
+
+// Reads frame 0 of every data set. Problems go to `diagnostics` (also those of the readers); with errors the scene is
+// incomplete and must not be drawn. `size` is that of the picture: an automatic camera depends on its shape.
+Scene realize(const SceneDesc& desc, Size2d size, Diagnostics& diagnostics);
+
+// The camera of a scene whose data has these bounds: absent numbers are chosen so that all of it is in view.
+Camera complete_camera(const CameraDesc& desc, const Bounds& bounds, Size2d size);
+
+} // namespace mote

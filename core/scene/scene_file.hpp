@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// What a user says about a scene, before any particle is read: the scene file (schema 1), or the same
+// made from data files or a generated name, with `--set` applied. Every value that can turn out wrong
+// later (a missing attribute, a camera that cannot see) keeps its place. realize.hpp turns this into a
+// Scene. Parsing reports all problems of a file at once and reads no other file.
+//
+// Colors are "#rgb", "#rrggbb", "#rrggbbaa" or [r, g, b] (0 to 1), sRGB-encoded unless `color_space = "linear"`
+// stands in the same table (or at the top of the file, for all): then linear Rec.709.
+#pragma once
+
+#include "core/base/diagnostic.hpp"
+#include "core/math/camera.hpp"
+#include "core/scene/generated.hpp"
+#include "core/scene/scene.hpp"
+#include "core/toml/node.hpp"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace mote {
+
+template <class T> struct Located {
+  T value{};
+  SourceLoc loc{};
+};
+
+// An attribute of a file turned into a number in [0,1] by `range`, then into a color or a radius.
+struct Mapping {
+  Located<std::string> attribute{};
+  Located<std::string> map{};                            // color map name, or "linear" for a radius
+  std::optional<std::pair<double, double>> range{};      // absent: "auto", least to largest finite value of the frame
+  std::pair<double, double> to{0.0, 1.0};                // radius only
+};
+
+enum class RadiusRule : std::uint8_t { Auto, Constant, Attribute, Mapped };
+struct RadiusDesc {
+  RadiusRule rule{RadiusRule::Auto};
+  double constant{};
+  Mapping mapping{}; // Attribute: only its name
+  SourceLoc loc{};
+};
+
+enum class ColorRule : std::uint8_t { Auto, Constant, Element, Mapped };
+struct ColorDesc {
+  ColorRule rule{ColorRule::Auto};
+  glm::dvec3 constant{0}; // working space
+  Mapping mapping{};
+  SourceLoc loc{};
+};
+
+struct DataDesc {
+  Located<std::filesystem::path> file{};     // relative paths are resolved; empty for generated spheres
+  std::optional<GeneratedName> generated{};
+  std::string type{"sphere"};
+  RadiusDesc radius{};
+  ColorDesc color{};
+  double alpha{1.0};
+  Material material{};
+  glm::dmat4 transform{1.0};
+  SourceLoc loc{};
+};
+
+// Numbers that are absent are chosen so that the data is in view.
+struct CameraDesc {
+  Projection projection{Projection::Perspective};
+  std::optional<glm::dvec3> eye{}, target{}, up{};
+  std::optional<double> fov_y{}, height{}, near{}, far{};
+  SourceLoc loc{};
+};
+
+struct SceneDesc {
+  std::string name{};                         // the file, or the words that named the data
+  std::optional<Located<std::string>> graph{}; // a shipped name or a path, as written
+  std::filesystem::path folder{};             // that relative paths are relative to
+  std::optional<Located<double>> tolerance{}; // pixels
+  glm::dvec4 background{1};                   // working space, straight alpha
+  CameraDesc camera{};
+  glm::dvec3 ambient{0.2};                    // color * intensity, working space
+  std::vector<Light> lights{};
+  std::vector<DataDesc> data{};
+};
+
+// Does the file look like a scene (TOML whose top has data, camera, ...) rather than a particle file? Decides by
+// the ending ".toml".
+bool is_scene_path(const std::filesystem::path& path);
+
+// Reads and checks a scene file, with overrides ("path=value") applied. Throws Failure when the file cannot be read,
+// is no TOML, or an override names nothing; everything else goes to `diagnostics` (S003...S025).
+SceneDesc read_scene(const std::filesystem::path& file, std::span<const std::string> overrides, Diagnostics& diagnostics);
+// The same for a text; `folder` resolves relative paths.
+SceneDesc parse_scene(std::string_view text, const std::string& file, const std::filesystem::path& folder,
+                      std::span<const std::string> overrides, Diagnostics& diagnostics);
+// A scene of data files with everything else at its default.
+SceneDesc scene_of_files(std::span<const std::string> files, std::span<const std::string> overrides, Diagnostics& diagnostics);
+// A scene by name ("spheres:1e5:fill").
+SceneDesc scene_by_name(std::string_view name, std::span<const std::string> overrides, Diagnostics& diagnostics);
+
+// What command line words name: one scene file, one generated name, or data files. Throws Failure (Usage) for mixtures.
+SceneDesc describe(std::span<const std::string> words, std::span<const std::string> overrides, Diagnostics& diagnostics);
+
+} // namespace mote

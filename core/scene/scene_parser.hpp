@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The parts that the scene file is read in; private to core/scene. Each function reads one table or
+// value through a TableReader and reports there; scene_file.cpp puts the parts together.
+#pragma once
+
+#include "core/scene/codes.hpp"
+#include "core/scene/scene_file.hpp"
+#include "core/toml/reader.hpp"
+
+namespace mote::scene_parser {
+
+inline constexpr config::Codes reader_codes{code::scene_unknown_key, code::scene_wrong_type, code::scene_out_of_range,
+                                            code::scene_unknown_word, code::scene_missing_key};
+
+// `color_space` of the table if it has one, else `inherited`. True: linear Rec.709; false: sRGB-encoded.
+bool read_color_space(config::TableReader& reader, bool inherited);
+
+// A color in the working space with its straight alpha, or nothing when absent or wrong (reported).
+std::optional<glm::dvec4> read_color(config::TableReader& reader, std::string_view key, bool linear, bool alpha_allowed = false);
+std::optional<glm::dvec4> as_color(config::TableReader& reader, const config::Node& node, std::string_view key, bool linear,
+                                   bool alpha_allowed = false);
+
+CameraDesc read_camera(const config::Node& table, Diagnostics& diagnostics);
+std::vector<Light> read_lights(std::span<const config::Node* const> tables, bool linear, Diagnostics& diagnostics);
+DataDesc read_data(const config::Node& table, std::size_t index, const std::filesystem::path& folder, bool linear,
+                   Diagnostics& diagnostics);
+// A list of steps, applied from first to last; singular ones are reported and left out.
+glm::dmat4 read_transform(config::TableReader& reader, std::string_view key);
+
+} // namespace mote::scene_parser

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The golden numbers were printed by the benchmark generator (NumPy): first and last record, and the
+// CRC-32 of all float32 records x y z r.
+#include "core/scene/generated.hpp"
+
+#include <gmock/gmock.h>
+#include <zlib.h>
+
+#include <cmath>
+
+namespace mote {
+namespace {
+
+using testing::HasSubstr;
+
+unsigned long checksum(std::uint64_t count, std::uint64_t seed) {
+  const GeneratedSpheres g = generate_spheres(count, seed);
+  std::vector<float> records;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    for (std::uint64_t k = 0; k < 3; ++k) records.push_back(static_cast<float>(g.positions[3 * i + k]));
+    records.push_back(static_cast<float>(g.radii[i]));
+  }
+  return crc32(0, reinterpret_cast<const Bytef*>(records.data()), static_cast<uInt>(records.size() * sizeof(float)));
+}
+
+TEST(Generated, RecordsAreThoseOfTheGenerator) {
+  const GeneratedSpheres g = generate_spheres(1000, 1);
+  EXPECT_EQ(g.positions[0], -0x1.2b2cdap+5);
+  EXPECT_EQ(g.positions[1], 0x1.417d6ap+4);
+  EXPECT_EQ(g.positions[2], 0x1.a93432p+3);
+  EXPECT_EQ(g.radii[0], 4.0);
+  EXPECT_EQ(checksum(1000, 1), 0x8b30462du);
+  EXPECT_EQ(checksum(1000, 7), 0xd8da7071u);
+  EXPECT_EQ(checksum(100000, 1), 0x1b9a1c19u);
+  EXPECT_EQ(checksum(1000000, 3), 0x36a265d4u);
+}
+
+void expect_eye(std::string_view name, const glm::dvec3& eye) {
+  const Camera camera = generated_camera(parse_generated_name(name));
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(camera.eye[k], eye[k], 1e-12 * 400) << name;
+  EXPECT_EQ(camera.target, glm::dvec3(0));
+  EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
+  EXPECT_EQ(camera.fov_y, 30.0);
+  EXPECT_FALSE(camera.far);
+}
+
+TEST(Generated, CamerasAreThoseOfTheGenerator) {
+  expect_eye("spheres:1e5:fit", {69.99813924559646, 41.99888354735787, 279.99255698238585});
+  expect_eye("spheres:1e5:fit:frame=46", {173.8354346665362, 41.99888354735787, 230.38405569326392});
+  expect_eye("spheres:1e5:fill", {32.401036849769056, 19.440622109861433, 129.60414739907623});
+  expect_eye("spheres:1e5:fill:seed=7:frame=46", {80.46568644723502, 19.440622109861433, 106.64115301588232});
+  expect_eye("spheres:1e5:inside:frame=46", {11.92084243662741, 2.8800921644239157, 15.798689335686271});
+  EXPECT_EQ(generated_camera(parse_generated_name("spheres:1000:inside")).near, 1.0);
+  EXPECT_FALSE(generated_camera(parse_generated_name("spheres:1000:fill")).near);
+}
+
+TEST(Generated, NamesAreUnderstood) {
+  const GeneratedName name = parse_generated_name("spheres:2.5e6:inside:seed=7:frame=-3");
+  EXPECT_EQ(name.count, 2500000u);
+  EXPECT_EQ(name.camera, GeneratedCamera::Inside);
+  EXPECT_EQ(name.seed, 7u);
+  EXPECT_EQ(name.frame, -3);
+  EXPECT_EQ(parse_generated_name("spheres:10").camera, GeneratedCamera::Fit);
+  EXPECT_TRUE(is_generated_name("spheres:10"));
+  EXPECT_TRUE(is_generated_name("sticks:10:fit"));
+  EXPECT_FALSE(is_generated_name("spheres.npy"));
+  EXPECT_FALSE(is_generated_name("C:spheres"));
+}
+
+void expect_refused(std::string_view name, std::string_view code, std::string_view words) {
+  try {
+    parse_generated_name(name);
+    FAIL() << name << " was accepted";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.diagnostic().code, code) << name;
+    EXPECT_THAT(failure.what(), HasSubstr(std::string(words)));
+    EXPECT_EQ(failure.exit(), Exit::Usage);
+  }
+}
+
+TEST(Generated, BadNamesAreRefused) {
+  expect_refused("spheres:", "S019", "'' is not a number");
+  expect_refused("spheres:many:fit", "S019", "'many' is not a number");
+  expect_refused("spheres:0:fit", "S019", "'0' particles");
+  expect_refused("spheres:1.5:fit", "S019", "'1.5' is not a number");
+  expect_refused("spheres:1e9:fit", "S019", "1 to 1e8");
+  expect_refused("spheres:nan:fit", "S019", "'nan' is not a number");
+  expect_refused("spheres:1e3:filll", "S019", "Did you mean 'fill'?");
+  expect_refused("spheres:1e3:fit:speed=3", "S019", "option 'speed=3'");
+  expect_refused("spheres:1e3:fit:seed=x", "S019", "'x' is not a whole number for seed");
+  expect_refused("sticks:1e4:fit", "S020", "'cylinder', which is not there yet");
+}
+
+} // namespace
+} // namespace mote
