@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Codes of the messages of core/compare.
+#pragma once
+
+#include <string_view>
+
+namespace mote::compare_codes {
+
+inline constexpr std::string_view unknown_limit = "K001";  // a limit of a name that no measure has
+inline constexpr std::string_view bad_limit = "K002";      // not "name=number", or a negative number
+inline constexpr std::string_view twice = "K003";          // the same limit given twice
+inline constexpr std::string_view sizes_differ = "K004";   // pictures of two sizes
+inline constexpr std::string_view nothing_common = "K005"; // no AOV or color that both have
+inline constexpr std::string_view not_measured = "K006";   // a limit on what the two do not both have
+inline constexpr std::string_view wrong_length = "K007";   // an array that does not fit the picture's size
+
+} // namespace mote::compare_codes

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// A scene made ready for rays in double precision: one tree per chunk set, shared by all instances
+// of it, and the instances with their matrices. Built once per scene; views come and go.
+//
+// What counts as a particle: a record in use (a row, a radius above 0, finite numbers) whose opacity
+// is 1. Transparent particles are left out and counted: AOVs show opaque surfaces only.
+// Exact duplicates of a record are kept once, as the lowest row, and remembered: a scene that puts
+// 1e5 spheres in one place costs no more per ray than one sphere.
+#pragma once
+
+#include "core/reference/bvh.hpp"
+#include "core/reference/shapes.hpp"
+#include "core/scene/scene.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace mote::reference {
+
+// The particles of a chunk set under one type. Item numbers of the tree are records.
+struct Tree {
+  std::shared_ptr<const ChunkSet> chunks{};
+  const Shape* shape{};
+  Bvh bvh{};
+  std::vector<std::uint32_t> repeated{}; // records that stand for several equal ones, ascending
+  std::uint64_t transparent{};           // particles left out
+  [[nodiscard]] bool is_repeated(std::uint32_t record) const;
+};
+
+struct Placed { // one instance of one batch
+  const Tree* tree{};
+  std::uint32_t batch{};
+  std::uint64_t first_id{};      // id of row 0
+  glm::dmat3 data_from_world{1}; // the linear part
+  glm::dmat3 normal_to_world{1}; // inverse transpose of the matrix's linear part
+  glm::dvec3 translation{0};     // world place of the data set's origin
+  Bounds bounds{};               // world
+  double stretch{1};             // at least the factor by which data_from_world lengthens a vector
+};
+
+struct World {
+  Scene scene{}; // values; chunk sets are shared
+  std::vector<std::unique_ptr<const Tree>> trees{};
+  std::vector<Placed> placed{};
+  Bvh top{};                 // over the instances' world boxes; item numbers are indices of `placed`
+  std::uint64_t particles{}; // ids run below this
+  std::uint64_t transparent{};
+  double build_seconds{};
+};
+
+// `threads` 0: all cores. Throws Failure R001 (unknown particle type), R002 (singular instance matrix).
+World build_world(const Scene& scene, unsigned threads = 0);
+
+} // namespace mote::reference
