@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Runs a plan: makes its textures and buffers for a view size, prepares the passes once, and records
+// and submits frames. One encoder, one submission a frame; barriers are core/gpu's business.
+//
+//   Executor executor(device, *result.plan, result.passes);
+//   executor.execute(frame, {640, 480});                       // does not wait
+//   auto pixels = device.read_texture(executor.output());      // waits
+//
+// The window copies output() to its surface; a graph never sees the surface. A hot reload makes a new
+// Executor beside the old one and swaps when prepare() did not throw.
+#pragma once
+
+#include "render_graph/idle.hpp"
+#include "render_graph/pass.hpp"
+#include "render_graph/plan.hpp"
+#include "render_graph/profiler.hpp"
+#include "render_graph/resources.hpp"
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace mote::rg {
+
+struct ExecuteOptions {
+  bool camera_cut{}; // state slots start again from zero
+};
+
+class Executor {
+public:
+  // `passes` belong to `plan` one by one, as compile() returns them.
+  Executor(gpu::Device device, Plan plan, std::vector<std::shared_ptr<Pass>> passes);
+  ~Executor();
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+
+  // Makes resources for the view and, the first time, prepares all passes. execute() does it by itself;
+  // call it before to find errors early. Throws Failure: G070, G071, or what a pass's prepare throws.
+  void prepare(const FrameInput& frame, ViewSize view);
+  // Records and submits one frame. The view may have another size each time: only what depends on it is
+  // made anew. Throws as prepare() does and what passes throw while recording (nothing is then submitted).
+  gpu::Submission execute(const FrameInput& frame, ViewSize view, const ExecuteOptions& options = {});
+  void reset_state();
+
+  // Of a root ("display.color", or what --dump asked for), valid after a frame; else an invalid object.
+  [[nodiscard]] gpu::Texture texture(std::string_view source) const;
+  [[nodiscard]] gpu::Buffer buffer(std::string_view source) const;
+  [[nodiscard]] gpu::Texture output() const;
+
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+  [[nodiscard]] ViewSize view_size() const { return resources_.view_size(); }
+  [[nodiscard]] const FrameChoice& last_choice() const { return choice_; } // which passes ran, and why others did not
+  // One per pass in plan order, of a frame up to three old; with `wait` of the last one.
+  [[nodiscard]] const std::vector<PassTiming>& timings(bool wait = false) { return profiler_.timings(wait); }
+
+private:
+  class Context;
+  void choose(const FrameInput& frame);
+  void record_pass(std::size_t i, const FrameInput& frame, gpu::CommandEncoder& encoder);
+  void open_and_record(std::size_t i, const FrameInput& frame, gpu::CommandEncoder& encoder);
+  void record_copies(std::size_t after, gpu::CommandEncoder& encoder);
+
+  gpu::Device device_;
+  Plan plan_;
+  std::vector<std::shared_ptr<Pass>> passes_;
+  Resources resources_;
+  Profiler profiler_;
+  std::vector<std::unique_ptr<Context>> contexts_{};
+  FrameChoice choice_{};
+  bool prepared_{};
+};
+
+} // namespace mote::rg

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "render_graph/profiler.hpp"
+
+#include <cstring>
+
+namespace mote::rg {
+
+Profiler::Profiler(gpu::Device device, std::vector<std::string> passes)
+    : device_(std::move(device)), passes_(std::move(passes)), timestamps_(has(device_.features(), gpu::Feature::TimestampQuery) && !passes_.empty()) {
+  if (!timestamps_) return;
+  const auto count = static_cast<std::uint32_t>(passes_.size() * 2);
+  for (Frame& frame : frames_) {
+    frame.queries = device_.create_query_set({.label = "pass timestamps", .type = gpu::QueryType::Timestamp, .count = count});
+    frame.resolved = device_.create_buffer({.label = "pass timestamps", .size = count * 8u, .usage = gpu::BufferUsage::QueryResolve | gpu::BufferUsage::CopySrc});
+    frame.readable = device_.create_buffer({.label = "pass timestamps (readable)", .size = count * 8u, .usage = gpu::BufferUsage::MapRead | gpu::BufferUsage::CopyDst});
+  }
+}
+
+void Profiler::begin_frame() {
+  current_ = (current_ + 1) % frames_.size();
+  Frame& frame = frames_[current_];
+  if (frame.submission != 0) read(frame); // three frames old: done, or the device is far behind and should be waited for
+  frame.used = 0;
+  frame.query.assign(passes_.size(), -1);
+  frame.timings.assign(passes_.size(), {});
+  for (std::size_t i = 0; i < passes_.size(); ++i) frame.timings[i].name = passes_[i];
+}
+
+void Profiler::begin_pass(gpu::CommandEncoder& encoder, std::size_t pass) {
+  Frame& frame = frames_[current_];
+  pass_ = pass;
+  if (timestamps_) {
+    frame.query[pass] = static_cast<int>(frame.used);
+    encoder.write_timestamp(frame.queries, frame.used);
+    frame.used += 2;
+  }
+  start_ = Clock::now();
+}
+
+void Profiler::end_pass(gpu::CommandEncoder& encoder) {
+  Frame& frame = frames_[current_];
+  frame.timings[pass_].cpu_ms = std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  if (timestamps_) encoder.write_timestamp(frame.queries, frame.used - 1);
+}
+
+void Profiler::skip_pass(std::size_t pass, std::string reason) {
+  PassTiming& timing = frames_[current_].timings[pass];
+  timing.skipped = std::move(reason);
+  if (timestamps_) timing.gpu_ms = 0.0;
+}
+
+void Profiler::end_frame(gpu::CommandEncoder& encoder) {
+  Frame& frame = frames_[current_];
+  if (frame.used == 0) return;
+  encoder.resolve_query_set(frame.queries, 0, frame.used, frame.resolved, 0);
+  encoder.copy_buffer_to_buffer(frame.resolved, 0, frame.readable, 0, frame.used * 8u);
+}
+
+void Profiler::submitted(gpu::Submission submission) { frames_[current_].submission = submission; }
+
+void Profiler::read(Frame& frame) {
+  device_.queue().wait(frame.submission);
+  const auto bytes = frame.used ? frame.readable.mapped() : std::span<std::byte>{};
+  for (std::size_t i = 0; i < passes_.size(); ++i) {
+    if (frame.query[i] < 0 || bytes.empty()) continue;
+    std::uint64_t ticks[2];
+    std::memcpy(ticks, bytes.data() + static_cast<std::size_t>(frame.query[i]) * 8, sizeof ticks);
+    const double nanoseconds = ticks[1] > ticks[0] ? static_cast<double>(ticks[1] - ticks[0]) * static_cast<double>(device_.limits().timestamp_period_ns) : 0.0;
+    frame.timings[i].gpu_ms = nanoseconds * 1e-6;
+  }
+  latest_ = frame.timings;
+  frame.submission = 0;
+}
+
+const std::vector<PassTiming>& Profiler::timings(bool wait) {
+  if (wait && frames_[current_].submission != 0) read(frames_[current_]);
+  return latest_;
+}
+
+} // namespace mote::rg
