@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "passes/opaque_impostors.hpp"
+
+#include "core/base/diagnostic.hpp"
+#include "passes/particles/frame_uniform.hpp"
+#include "passes/particles/particle_store.hpp"
+#include "passes/particles/pipelines.hpp"
+#include "passes/particles/quad_indices.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace mote::passes {
+namespace {
+
+using gpu::TextureFormat;
+
+struct AovSlot {
+  std::string_view name;
+  TextureFormat format;
+  AovBits bit;
+  std::string_view summary;
+};
+constexpr std::array<AovSlot, 3> aov_slots{{
+    {"aov_depth", TextureFormat::R32Float, aov_depth_bit, "distance along the view axis, +inf where nothing is"},
+    {"aov_id", TextureFormat::R32Uint, aov_id_bit, "particle id, 4294967295 where nothing is"},
+    {"aov_normal", TextureFormat::RGBA32Float, aov_normal_bit, "unit normal in world space, turned to the eye"},
+}};
+
+class OpaqueImpostors final : public rg::Pass {
+public:
+  void declare(std::vector<rg::Slot>& slots, rg::Params& params) override {
+    slots.push_back({.name = "color", .access = rg::Access::ColorWrite, .summary = "scene-linear color over the background",
+                     .makes = rg::TextureSpec{.format = TextureFormat::RGBA16Float}});
+    slots.push_back({.name = "depth", .access = rg::Access::DepthWrite, .summary = "n / z, reverse-Z",
+                     .makes = rg::TextureSpec{.format = TextureFormat::Depth32Float}});
+    for (const AovSlot& aov : aov_slots)
+      slots.push_back({.name = std::string(aov.name), .access = rg::Access::ColorWrite, .summary = std::string(aov.summary),
+                       .makes = rg::TextureSpec{.format = aov.format}, .optional = true});
+    for (const rg::LocatedString& type : params.draw())
+      if (!find_particle_type(type.text))
+        params.error_at("G031", type.loc, fmt::format("there is no particle type '{}'", type.text),
+                        {"particle types: " + list_of(particle_type_names()), did_you_mean(type.text, particle_type_names())});
+      else
+        draw_.push_back(type.text);
+  }
+
+  void prepare(rg::PassContext& context) override {
+    aovs_ = 0;
+    targets_.clear();
+    for (const std::string& slot : context.color_slots()) targets_.push_back(context.format(slot));
+    for (const AovSlot& aov : aov_slots)
+      if (context.connected(aov.name)) aovs_ |= aov.bit;
+    depth_ = context.format("depth");
+  }
+
+  gpu::Color clear_value(std::string_view slot, const rg::FrameInput& frame) override {
+    if (slot == "aov_depth") return {std::numeric_limits<double>::infinity(), 0, 0, 0};
+    if (slot == "aov_id") return {4294967295.0, 0, 0, 0};
+    if (slot != "color") return {0, 0, 0, 0};
+    const glm::dvec4 b = frame.get<Scene>().background;
+    return {b.r, b.g, b.b, b.a};
+  }
+
+  void update(rg::PassContext& context) override {
+    const Scene& scene = context.frame().get<Scene>();
+    const View& view = context.frame().get<View>();
+    const ParticleStore& store = context.frame().get<ParticleStore>();
+    gpu::Device device = context.device();
+    if (!pipelines_) make_frame_group(device, store);
+    const FrameBlock block = frame_block(scene, view);
+    device.queue().write_buffer(frame_buffer_, 0, std::as_bytes(std::span(&block, 1)));
+    placed_ = store.place(scene, view);
+    expansion_ = context.frame().get<FrameOptions>().expansion;
+    if (expansion_ == Expansion::Auto) expansion_ = Expansion::Vertex;
+    std::uint32_t most = 0;
+    for (const ParticleDraw& draw : placed_.draws) most = std::max(most, draw.particles);
+    if (expansion_ == Expansion::Vertex) indices_.reserve(device, most);
+  }
+
+  void record(rg::PassContext& context) override {
+    const Scene& scene = context.frame().get<Scene>();
+    const View& view = context.frame().get<View>();
+    gpu::RenderPass& pass = context.render_pass();
+    for (const ParticleDraw& draw : placed_.draws) {
+      if (!draws(draw.batch->type)) continue;
+      ParticlePipelineKey key = key_for(scene, view, *draw.batch);
+      key.expansion = expansion_;
+      key.aovs = aovs_;
+      key.targets = targets_;
+      key.depth = depth_;
+      key.show_depth_violation = context.frame().get<FrameOptions>().show_depth_violation;
+      pass.set_pipeline(pipelines_->get(key));
+      pass.set_bind_group(0, frame_group_);
+      pass.set_bind_group(1, draw.group);
+      pass.set_push_constants(0, std::as_bytes(std::span(&draw.block, 1)));
+      if (expansion_ == Expansion::Vertex)
+        indices_.draw(pass, draw.particles);
+      else
+        pass.draw(draw.particles);
+    }
+  }
+
+private:
+  [[nodiscard]] bool draws(const std::string& type) const {
+    return draw_.empty() || std::find(draw_.begin(), draw_.end(), type) != draw_.end();
+  }
+
+  void make_frame_group(gpu::Device& device, const ParticleStore& store) {
+    pipelines_ = std::make_unique<ParticlePipelines>(device, store.layout());
+    frame_buffer_ = device.create_buffer({.label = "frame", .size = sizeof(FrameBlock),
+                                          .usage = gpu::BufferUsage::Uniform | gpu::BufferUsage::CopyDst});
+    const std::array entries{gpu::BindGroupEntry{.binding = 0, .buffer = {&frame_buffer_}}};
+    frame_group_ = device.create_bind_group({.label = "frame", .layout = &pipelines_->frame_layout(), .entries = entries});
+  }
+
+  std::vector<std::string> draw_; // particle types; empty: all
+  std::vector<TextureFormat> targets_;
+  TextureFormat depth_{};
+  std::uint32_t aovs_{};
+  Expansion expansion_{Expansion::Vertex};
+  std::unique_ptr<ParticlePipelines> pipelines_;
+  gpu::Buffer frame_buffer_;
+  gpu::BindGroup frame_group_;
+  QuadIndices indices_;
+  PlacedView placed_;
+};
+
+} // namespace
+
+std::unique_ptr<rg::Pass> make_opaque_impostors() { return std::make_unique<OpaqueImpostors>(); }
+
+} // namespace mote::passes

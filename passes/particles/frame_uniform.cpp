@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "passes/particles/frame_uniform.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mote::passes {
+namespace {
+
+LightBlock light_block(const Light& light, const View& view) {
+  LightBlock block;
+  const bool local = light.kind == LightKind::Point || light.kind == LightKind::Spot;
+  if (local) block.position = glm::vec4(glm::vec3(view.to_view(light.position)), 1.0f);
+  if (light.kind == LightKind::Headlight) block.position = {0, 0, -1, 0};
+  if (light.kind == LightKind::Directional)
+    block.position = glm::vec4(glm::vec3(view.rotation * -glm::normalize(light.direction)), 0.0f);
+  block.strength = glm::vec4(glm::vec3(light.color * light.intensity), 0.0f);
+  if (local) block.attenuation = glm::vec4(glm::vec3(light.attenuation), 0.0f);
+  if (light.kind == LightKind::Spot) {
+    block.axis = glm::vec4(glm::vec3(view.rotation * glm::normalize(light.direction)), 0.0f);
+    const double outer = std::cos(light.outer_angle), inner = std::cos(light.inner_angle);
+    block.cone = glm::vec4(static_cast<float>(outer), static_cast<float>(1.0 / std::max(inner - outer, 1e-9)), 0, 0);
+  }
+  return block;
+}
+
+} // namespace
+
+FrameBlock frame_block(const Scene& scene, const View& view) {
+  FrameBlock block;
+  const double w = view.size.width, h = view.size.height;
+  block.viewport = glm::vec4(glm::dvec4(w, h, view.focal, 1.0 / view.focal));
+  block.sample_near_far = glm::vec4(glm::dvec4(view.sample_offset.x - 0.5 * w, view.sample_offset.y - 0.5 * h, view.near_cut,
+                                               view.far_cut > 0 ? std::min(view.far_cut, 3e38) : 3e38));
+  block.depth_near.x = static_cast<float>(view.depth_near);
+  const glm::dmat3 world_from_view = glm::transpose(view.rotation);
+  for (int i = 0; i < 3; ++i) block.world_from_view[i] = glm::vec4(glm::vec3(world_from_view[i]), 0.0f);
+  block.ambient = glm::vec4(glm::vec3(scene.ambient), 0.0f);
+  const std::size_t count = std::min<std::size_t>(scene.lights.size(), max_lights);
+  for (std::size_t i = 0; i < count; ++i) block.lights[i] = light_block(scene.lights[i], view);
+  return block;
+}
+
+} // namespace mote::passes

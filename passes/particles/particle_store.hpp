@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The particles of a scene on the device, shared by all passes. Chunk sets are uploaded once and
+// kept while a scene uses them; buffers beyond the device's binding limit are split into slices.
+//
+// place() brings the origin of every (chunk, instance) that a view may see into its view space, in
+// double on the CPU, each frame (contracts, "Placement"): shaders see view-space numbers only. What
+// comes back are draws, ready to record in scene order.
+//
+// Called from Pass::update(); one thread.
+#pragma once
+
+#include "core/gpu/gpu.hpp"
+#include "core/scene/scene.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace mote::passes {
+
+// Push constants of a draw; mirrors BatchBlock of shaders/particles/particle.glsl.
+struct BatchBlock {
+  glm::vec4 linear0_scale{1, 0, 0, 1}, linear1{0, 1, 0, 0}, linear2{0, 0, 1, 0};
+  glm::vec4 color{1}, material{1, 1, 0, 32};
+  std::uint32_t id_base{}, first_placement{};
+};
+static_assert(sizeof(BatchBlock) == 88);
+
+struct ParticleDraw {
+  const Batch* batch{};
+  gpu::BindGroup group{};     // set 1
+  BatchBlock block{};
+  std::uint32_t particles{};  // places to expand: 64 a placed chunk
+};
+
+// One view's draws and the buffer that their placements live in.
+struct PlacedView {
+  std::vector<ParticleDraw> draws{};
+  std::uint64_t chunks_placed{}, chunks_total{};
+};
+
+class ParticleStore {
+public:
+  explicit ParticleStore(gpu::Device device);
+  ~ParticleStore();
+  ParticleStore(const ParticleStore&) = delete;
+  ParticleStore& operator=(const ParticleStore&) = delete;
+
+  // Uploads what is new in the scene and lets go of what no batch uses any more.
+  void upload(const Scene& scene);
+  // Needs upload() of the same scene. `slot` names a buffer of placements that is reused every frame:
+  // one for each view that is alive at the same time (camera, lights). Const: placements are a cache.
+  PlacedView place(const Scene& scene, const View& view, std::uint32_t slot = 0) const;
+
+  [[nodiscard]] const gpu::BindGroupLayout& layout() const; // of set 1
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace mote::passes

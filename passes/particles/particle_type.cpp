@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "passes/particles/particle_type.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace mote::passes {
+namespace {
+
+// One line a type.
+const std::array<ParticleType, 1> types{{
+    {"sphere", "exact sphere: center, radius", 1, {Expansion::Vertex, Expansion::Geometry}, {Phase::Opaque}},
+}};
+
+constexpr std::array expansions{Expansion::Vertex, Expansion::Geometry};
+constexpr std::array phases{Phase::Opaque};
+
+} // namespace
+
+std::string_view to_string(Phase phase) {
+  switch (phase) {
+  case Phase::Opaque: return "opaque";
+  }
+  return "opaque";
+}
+
+std::span<const ParticleType> particle_types() { return types; }
+
+const ParticleType* find_particle_type(std::string_view name) {
+  const auto it = std::find_if(types.begin(), types.end(), [&](const ParticleType& t) { return t.name == name; });
+  return it == types.end() ? nullptr : &*it;
+}
+
+std::vector<std::string> particle_type_names() {
+  std::vector<std::string> names;
+  for (const ParticleType& type : types) names.push_back(type.name);
+  return names;
+}
+
+bool supports(const ParticleType& type, Expansion expansion, Phase phase) {
+  return std::count(type.expansions.begin(), type.expansions.end(), expansion) > 0 &&
+         std::count(type.phases.begin(), type.phases.end(), phase) > 0;
+}
+
+std::string support_matrix() {
+  std::string out = fmt::format("{:<12}{:<12}", "type", "expansion");
+  for (Phase phase : phases) out += fmt::format("{:<12}", to_string(phase));
+  out += "\n";
+  for (const ParticleType& type : types)
+    for (Expansion expansion : expansions) {
+      out += fmt::format("{:<12}{:<12}", type.name, to_string(expansion));
+      for (Phase phase : phases) out += fmt::format("{:<12}", supports(type, expansion, phase) ? "yes" : "no");
+      out += "\n";
+    }
+  return out;
+}
+
+} // namespace mote::passes

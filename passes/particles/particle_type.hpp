@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The plugin interface of particle types, and their list. A type is a folder of shaders
+// (shaders/particles/<name>/type.glsl: record, place, proxy, intersect), an intersector of the
+// reference (core/reference) and one row of this list; docs/add-a-particle-type.md walks through it.
+//
+// What a type, an expansion and a phase cannot do together is a row of the support matrix that
+// `mote graph --kinds` prints, and an error with a code (P001); never a silent fallback.
+#pragma once
+
+#include "passes/frame.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mote::passes {
+
+enum class Phase : std::uint8_t { Opaque };
+std::string_view to_string(Phase phase);
+
+struct ParticleType {
+  std::string name{};             // also the shader folder
+  std::string summary{};
+  std::uint32_t vec4s_per_record{};
+  std::vector<Expansion> expansions{};
+  std::vector<Phase> phases{};
+};
+
+std::span<const ParticleType> particle_types();
+const ParticleType* find_particle_type(std::string_view name);
+std::vector<std::string> particle_type_names();
+bool supports(const ParticleType& type, Expansion expansion, Phase phase);
+
+// "type  expansion  opaque" rows for people.
+std::string support_matrix();
+
+} // namespace mote::passes

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "passes/particles/pipelines.hpp"
+
+#include "core/base/diagnostic.hpp"
+#include "passes/particles/frame_uniform.hpp"
+#include "passes/particles/particle_store.hpp"
+#include "shaders/embedded.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace mote::passes {
+namespace {
+constexpr std::size_t most_pipelines = 256; // far above what scenes use; beyond it the cache starts anew
+}
+
+std::string to_string(const ParticlePipelineKey& k) {
+  return fmt::format("{} / {} / {} aov={} {} lights={}{} specular={}{}", k.type, to_string(k.expansion), to_string(k.phase), k.aovs,
+                     k.orthographic ? "orthographic" : "perspective", k.light_count, k.local_lights ? " local" : "",
+                     k.specular_model, k.per_particle_color ? " colors" : "");
+}
+
+ParticlePipelineKey key_for(const Scene& scene, const View& view, const Batch& batch) {
+  ParticlePipelineKey key;
+  key.type = batch.type;
+  key.orthographic = view.projection == Projection::Orthographic;
+  key.light_count = static_cast<std::uint32_t>(std::min<std::size_t>(scene.lights.size(), max_lights));
+  key.local_lights = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
+    return l.kind == LightKind::Point || l.kind == LightKind::Spot;
+  });
+  const Material& m = batch.material;
+  if (m.specular > 0.0 && m.model == ShadingModel::Phong) key.specular_model = 1;
+  if (m.specular > 0.0 && m.model == ShadingModel::BlinnPhong) key.specular_model = 2;
+  key.per_particle_color = !batch.chunks->colors.empty();
+  return key;
+}
+
+ParticlePipelines::ParticlePipelines(gpu::Device device, const gpu::BindGroupLayout& particles) : device_(std::move(device)) {
+  const bool geometry = gpu::has(device_.features(), gpu::Feature::GeometryShader);
+  const std::array entries{gpu::BindGroupLayoutEntry{
+      .binding = 0,
+      .visibility = gpu::ShaderStage::Vertex | gpu::ShaderStage::Fragment | (geometry ? gpu::ShaderStage::Geometry : gpu::ShaderStage::None),
+      .type = gpu::BindingType::UniformBuffer,
+      .min_binding_size = sizeof(FrameBlock)}};
+  frame_layout_ = device_.create_bind_group_layout({.label = "frame", .entries = entries});
+  const std::array<const gpu::BindGroupLayout*, 2> layouts{&frame_layout_, &particles};
+  layout_ = device_.create_pipeline_layout({.label = "particles", .bind_group_layouts = layouts, .push_constant_size = sizeof(BatchBlock)});
+}
+
+gpu::ShaderModule ParticlePipelines::module(const std::string& key) {
+  gpu::ShaderModule& module = modules_[key];
+  if (!module) {
+    const auto words = shaders::spirv(key);
+    if (words.empty()) throw std::logic_error("no shipped shader '" + key + "'");
+    module = device_.create_shader_module({.label = key, .spirv = words});
+  }
+  return module;
+}
+
+const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key) {
+  if (auto it = pipelines_.find(key); it != pipelines_.end()) return it->second;
+  if (pipelines_.size() >= most_pipelines) pipelines_.clear();
+
+  const bool geometry = key.expansion == Expansion::Geometry;
+  const gpu::ShaderModule vertex = module(key.type + (geometry ? "/geometry.vert" : "/vertex.vert"));
+  const gpu::ShaderModule fragment = module(fmt::format("{}/opaque.frag/aov{}", key.type, key.aovs));
+  const gpu::ShaderModule geometry_module = geometry ? module(key.type + "/geometry.geom") : gpu::ShaderModule();
+  const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(1, key.light_count),
+                             gpu::spec(2, key.local_lights), gpu::spec(3, key.specular_model),
+                             gpu::spec(4, key.per_particle_color), gpu::spec(5, key.show_depth_violation)};
+  std::vector<gpu::ColorTargetState> targets;
+  for (const gpu::TextureFormat format : key.targets) targets.push_back({.format = format});
+
+  gpu::RenderPipelineDescriptor descriptor{.label = "particles"};
+  const std::string label = to_string(key);
+  descriptor.label = label;
+  descriptor.layout = &layout_;
+  descriptor.vertex = {.module = &vertex, .constants = constants};
+  if (geometry) descriptor.geometry = gpu::ProgrammableStage{.module = &geometry_module, .constants = constants};
+  descriptor.fragment = gpu::ProgrammableStage{.module = &fragment, .constants = constants};
+  descriptor.topology = geometry ? gpu::Topology::PointList : gpu::Topology::TriangleList;
+  descriptor.depth = gpu::DepthState{.format = key.depth, .write = true, .compare = gpu::CompareFunction::Greater};
+  descriptor.targets = targets;
+  return pipelines_.emplace(key, device_.create_render_pipeline(descriptor)).first->second;
+}
+
+std::vector<std::string> ParticlePipelines::list() const {
+  std::vector<std::string> names;
+  for (const auto& [key, pipeline] : pipelines_) names.push_back(to_string(key));
+  return names;
+}
+
+} // namespace mote::passes

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Render pipelines of particle draws: one for each combination that a scene needs, made when first
+// asked for and kept. lavapipe has no real branches, so what differs between combinations is a
+// specialization constant or a shader variant, never an `if` on a uniform. The cache is bounded and
+// can be listed.
+#pragma once
+
+#include "core/gpu/gpu.hpp"
+#include "core/scene/scene.hpp"
+#include "passes/particles/particle_type.hpp"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mote::passes {
+
+// Bits of the AOV mask, in attachment order.
+enum AovBits : std::uint32_t { aov_depth_bit = 1, aov_id_bit = 2, aov_normal_bit = 4 };
+
+struct ParticlePipelineKey {
+  std::string type{};
+  Expansion expansion{Expansion::Vertex}; // never Auto
+  Phase phase{Phase::Opaque};
+  std::uint32_t aovs{};
+  bool orthographic{};
+  std::uint32_t light_count{};
+  bool local_lights{};
+  std::uint32_t specular_model{}; // 0 none, 1 Phong, 2 Blinn-Phong
+  bool per_particle_color{};
+  bool show_depth_violation{};
+  std::vector<gpu::TextureFormat> targets{};
+  gpu::TextureFormat depth{};
+  auto operator<=>(const ParticlePipelineKey&) const = default;
+};
+std::string to_string(const ParticlePipelineKey& key);
+
+// What a batch of a scene needs; targets, aovs, phase and expansion are the pass's to fill in.
+ParticlePipelineKey key_for(const Scene& scene, const View& view, const Batch& batch);
+
+class ParticlePipelines {
+public:
+  // Sets: 0 the frame block, 1 the particles (ParticleStore::layout()).
+  ParticlePipelines(gpu::Device device, const gpu::BindGroupLayout& particles);
+  [[nodiscard]] const gpu::RenderPipeline& get(const ParticlePipelineKey& key);
+  [[nodiscard]] const gpu::BindGroupLayout& frame_layout() const { return frame_layout_; }
+  [[nodiscard]] std::vector<std::string> list() const;
+
+private:
+  gpu::ShaderModule module(const std::string& key);
+  gpu::Device device_;
+  gpu::BindGroupLayout frame_layout_;
+  gpu::PipelineLayout layout_;
+  std::map<std::string, gpu::ShaderModule> modules_;
+  std::map<ParticlePipelineKey, gpu::RenderPipeline> pipelines_;
+};
+
+} // namespace mote::passes

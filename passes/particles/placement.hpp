@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Which chunks a view may see, and where they are in its view space: pure, no device. Double
+// precision; the result is rounded to float once.
+#pragma once
+
+#include "core/scene/scene.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace mote::passes {
+
+// As shaders read it: the origin's float bits and the chunk's index in its slice.
+struct PlacedChunk {
+  glm::uvec4 bits{0};
+};
+
+// A chunk is left out only if its box lies wholly behind the eye (or near) plane or beyond one side of the image
+// (or the far cut).
+class ViewCuller {
+public:
+  explicit ViewCuller(const View& view);
+  // Box center and half extents (per data axis), with the view-from-data matrix of its instance.
+  [[nodiscard]] bool may_see(const glm::dvec3& center_view, const glm::dmat3& view_from_data, const glm::dvec3& half) const;
+
+private:
+  glm::dvec3 planes_[6]{};   // inward normals, view space
+  double offsets_[6]{};      // inside where dot(normal, p) + offset >= 0
+  int count_{};
+};
+
+// Appends the chunks [first, first + count) of an instance that the view may see; indices count from `first`.
+void place_chunks(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance,
+                  const View& view, const ViewCuller& culler, std::vector<PlacedChunk>& out);
+
+} // namespace mote::passes

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// What a particle type, an expansion and a phase share. A stage file includes this; this includes
+// "type.glsl", which the include path resolves to the folder of the particle type:
+//
+//   const int record_vec4s, payload_vec4s
+//   struct Particle                                  view-space values of one particle
+//   Particle place(vec4 record[], Placement)         record (chunk-relative) to view space
+//   void pack(Particle, out vec4 payload[]), Particle unpack(vec4 payload[])
+//   bool drawable(Particle)                          false: radius 0 and the like, drawn as nothing
+//   Proxy proxy(Particle)                            bounds on the image
+//   bool intersect(Ray, Particle, out Interval)      where the ray is inside, and both normals
+#ifndef MOTE_PARTICLE_GLSL
+#define MOTE_PARTICLE_GLSL
+
+#include "common/frame.glsl"
+#include "common/exact.glsl"
+#include "common/color.glsl"
+
+// Places a chunk of one instance: view = linear * relative + origin. The origin was formed in double.
+struct Placement {
+  mat3 linear;
+  vec3 origin;
+  float scale; // of lengths; linear is a similarity
+};
+
+// A rectangle in tangents x/z, y/z (orthographic: in x, y), and the least visible z of the particle.
+struct Proxy {
+  vec2 lo, hi;
+  float z_min;
+};
+Proxy empty_proxy() { return Proxy(vec2(1e30), vec2(-1e30), 1.0); }
+
+// Where a ray runs inside a solid; normals point out of it. Parameters are view depths.
+struct Interval {
+  float t_in, t_out;
+  vec3 normal_in, normal_out;
+};
+
+#include "type.glsl"
+
+layout(push_constant) uniform BatchBlock {
+  vec4 linear0_scale;  // columns of Placement.linear; w of the first: scale
+  vec4 linear1;
+  vec4 linear2;
+  vec4 color;          // working space, straight alpha; rgb used where particles have no color of their own
+  vec4 material;       // ambient, diffuse, specular, exponent
+  uint id_base;        // id of row 0 of this instance
+  uint first_placement;
+} batch;
+
+layout(std430, set = 1, binding = 0) readonly buffer Records { vec4 records[]; };
+layout(std430, set = 1, binding = 1) readonly buffer Rows { uint rows[]; };
+layout(std430, set = 1, binding = 2) readonly buffer Colors { uint colors[]; };
+// One per chunk that may be visible: xyz the chunk's origin in view space (float bits), w the chunk's index.
+layout(std430, set = 1, binding = 3) readonly buffer Placements { uvec4 placements[]; };
+
+const uint chunk_capacity = 64u;
+
+struct Loaded {
+  Particle particle;
+  vec4 color;
+  uint id;
+};
+
+// `index` counts the places of all placed chunks: 64 a chunk.
+Loaded load_particle(uint index) {
+  uvec4 placed = placements[batch.first_placement + index / chunk_capacity];
+  uint slot = placed.w * chunk_capacity + index % chunk_capacity;
+  vec4 record[record_vec4s];
+  for (int i = 0; i < record_vec4s; ++i) record[i] = records[slot * uint(record_vec4s) + uint(i)];
+  Placement at = Placement(mat3(batch.linear0_scale.xyz, batch.linear1.xyz, batch.linear2.xyz),
+                           uintBitsToFloat(placed.xyz), batch.linear0_scale.w);
+  Loaded loaded;
+  loaded.particle = place(record, at);
+  loaded.color = batch.color;
+  if (per_particle_color) {
+    vec4 own = unpack_color(colors[slot]);
+    loaded.color = vec4(own.rgb, own.a * batch.color.a);
+  }
+  loaded.id = batch.id_base + rows[slot];
+  return loaded;
+}
+
+// Growth of a proxy on each side: pixels for vertex snapping (1/256) and rounding near the center, and a
+// fraction of its extent for the rounding of large ones.
+const float proxy_margin = 0.01;
+const float proxy_growth = 2e-6;
+
+// Corner i (0..3, strip order) of the proxy in clip space, with w = 1 so that nothing is near-clipped. The depth is
+// that of z_min, moved a little to the eye: the written depth n / z never exceeds it (depth_less, FC-29).
+vec4 proxy_corner(Proxy p, int i) {
+  vec2 margin = proxy_margin / frame.viewport.zz + proxy_growth * (p.hi - p.lo);
+  vec2 corner = vec2((i & 1) == 0 ? p.lo.x - margin.x : p.hi.x + margin.x,
+                     (i & 2) == 0 ? p.lo.y - margin.y : p.hi.y + margin.y);
+  // The rasterizer samples pixel centers, the rays pass at the sample offset: shift by the difference.
+  vec2 shift = 0.5 - (frame.sample_near_far.xy + 0.5 * frame.viewport.xy);
+  vec2 ndc = 2.0 * (corner * frame.viewport.zz + shift) / frame.viewport.xy;
+  return vec4(clamp(ndc, vec2(-2.0), vec2(2.0)), encode_depth(p.z_min * (1.0 - 1e-5)), 1.0);
+}
+vec4 outside() { return vec4(2.0, 2.0, 0.0, 1.0); }
+
+#endif

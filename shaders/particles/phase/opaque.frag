@@ -1,0 +1,54 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Phase `opaque`: the nearest visible surface of the particle, shaded; depth and, where asked for, AOVs.
+#extension GL_GOOGLE_include_directive : require
+#include "particles/particle.glsl"
+#include "common/shading.glsl"
+
+layout(location = 0) flat in vec4 v_color;
+layout(location = 1) flat in uint v_id;
+layout(location = 2) flat in vec4 v_payload[payload_vec4s];
+
+layout(location = 0) out vec4 o_color;
+// AOV is a mask: 1 depth, 2 id, 4 normal; attachments follow each other in this order.
+#if (AOV & 1) != 0
+layout(location = 1) out float o_depth;
+#endif
+#if (AOV & 2) != 0
+layout(location = 1 + (AOV & 1)) out uint o_id;
+#endif
+#if (AOV & 4) != 0
+layout(location = 1 + (AOV & 1) + ((AOV >> 1) & 1)) out vec4 o_normal;
+#endif
+layout(depth_less) out float gl_FragDepth; // reverse-Z: the proxy lies in front of the surface
+
+void main() {
+  Ray ray = pixel_ray(gl_FragCoord.xy);
+  Interval hit;
+  if (!intersect(ray, unpack(v_payload), hit)) discard;
+
+  // The entry, or the inner wall where the entry lies behind the eye or before the near plane.
+  float near = frame.sample_near_far.z;
+  bool inside = !(hit.t_in > 0.0 && hit.t_in >= near);
+  float t = inside ? hit.t_out : hit.t_in;
+  vec3 normal = inside ? -hit.normal_out : hit.normal_in;
+  if (!(t > 0.0 && t >= near && t <= frame.sample_near_far.w)) discard;
+
+  float depth = encode_depth(t);
+  bool violation = show_depth_violation && depth > gl_FragCoord.z;
+  gl_FragDepth = depth;
+
+  Surface at = Surface(ray.origin + t * ray.direction, normal, -normalize(ray.direction));
+  vec3 color = shade(at, v_color.rgb, batch.material);
+  o_color = vec4(violation ? vec3(1.0, 0.0, 1.0) : color, 1.0);
+#if (AOV & 1) != 0
+  o_depth = t;
+#endif
+#if (AOV & 2) != 0
+  o_id = v_id;
+#endif
+#if (AOV & 4) != 0
+  o_normal = vec4(normal.x * frame.world_from_view0.xyz + normal.y * frame.world_from_view1.xyz +
+                      normal.z * frame.world_from_view2.xyz, 0.0);
+#endif
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Particle type `sphere`: record (center relative to its chunk, radius). Formulas: method book,
+// sections 3.1 (intersection, form N) and 4.1 (bounds; for spheres Mara & McGuire, JCGT 2(2), 2013).
+
+const int record_vec4s = 1;
+const int payload_vec4s = 1;
+
+struct Particle {
+  vec3 center; // view space
+  float radius;
+};
+
+Particle place(vec4 record[record_vec4s], Placement at) {
+  precise vec3 center = at.linear * record[0].xyz + at.origin;
+  return Particle(center, record[0].w * at.scale);
+}
+
+void pack(Particle p, out vec4 payload[payload_vec4s]) { payload[0] = vec4(p.center, p.radius); }
+Particle unpack(vec4 payload[payload_vec4s]) { return Particle(payload[0].xyz, payload[0].w); }
+
+bool drawable(Particle p) { return p.radius > 0.0; }
+
+// Extent of x / z (or y / z) over the part of the sphere with z >= n, as (min, max); m = (x or y, z) of the center.
+vec2 tangent_extent(vec2 m, float r, float n) {
+  vec2 extent = vec2(1e30, -1e30);
+  float disc = r * r * (dot(m, m) - r * r);
+  if (disc > 0.0) {
+    // Roots of (z^2 - r^2) h^2 - 2 x z h + (x^2 - r^2) = 0, each written without cancellation.
+    float b = m.x * m.y;
+    float q = b + (b >= 0.0 ? sqrt(disc) : -sqrt(disc));
+    float a = (m.y - r) * (m.y + r), c = (m.x - r) * (m.x + r);
+    vec2 h = vec2(q / a, c / q);
+    for (int i = 0; i < 2; ++i) {
+      float s = m.x - h[i] * m.y > 0.0 ? -1.0 : 1.0; // side of the tangent point
+      float z = m.y - s * r * h[i] * inversesqrt(1.0 + h[i] * h[i]);
+      if (z >= n) extent = vec2(min(extent.x, h[i]), max(extent.y, h[i]));
+    }
+  }
+  float u = (n - m.y) / r; // the circle in which the near plane cuts the sphere
+  if (abs(u) <= 1.0) {
+    float half_chord = r * sqrt((1.0 - u) * (1.0 + u));
+    extent = vec2(min(extent.x, (m.x - half_chord) / n), max(extent.y, (m.x + half_chord) / n));
+  }
+  return extent;
+}
+
+// Rectangle on the image that covers the visible part, and the least z that it can have there.
+Proxy proxy(Particle p) {
+  float n = max(frame.sample_near_far.z, frame.depth_near.x);
+  if (p.center.z + p.radius < n) return empty_proxy();
+  vec2 x = vec2(p.center.x - p.radius, p.center.x + p.radius);
+  vec2 y = vec2(p.center.y - p.radius, p.center.y + p.radius);
+  if (!orthographic) {
+    x = tangent_extent(p.center.xz, p.radius, n);
+    y = tangent_extent(p.center.yz, p.radius, n);
+  }
+  return Proxy(vec2(x.x, y.x), vec2(x.y, y.y), max(n, p.center.z - p.radius));
+}
+
+// The interval of the ray inside the sphere. Misses give false.
+bool intersect(Ray ray, Particle p, out Interval hit) {
+  vec3 l;
+  float middle;
+  if (orthographic) { // already at the point nearest to the center: no distance enters
+    l = vec3(ray.origin.xy - p.center.xy, 0.0);
+    middle = p.center.z;
+  } else {
+    shift_to_nearest(ray.origin - p.center, ray.direction, l, middle);
+  }
+  float distance = length(l);
+  float d2 = (p.radius - distance) * (p.radius + distance); // never r^2 - l^2: cancels at the limb
+  float h = sqrt(max(d2, 0.0) / dot(ray.direction, ray.direction));
+  hit.t_in = middle - h;
+  hit.t_out = middle + h;
+  hit.normal_in = (l - h * ray.direction) / p.radius;
+  hit.normal_out = (l + h * ray.direction) / p.radius;
+  return d2 >= 0.0;
+}

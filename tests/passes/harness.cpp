@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "harness.hpp"
+
+#include "core/reference/reference.hpp"
+#include "passes/builtin.hpp"
+#include "render_graph/compile.hpp"
+#include "render_graph/executor.hpp"
+
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace mote::test {
+namespace {
+
+struct World {
+  gpu::Instance instance;
+  gpu::Device device;
+  ColorConfig config = ColorConfig::load();
+  std::vector<std::string> uncaptured;
+};
+
+World& world() {
+  static World* w = [] {
+    auto made = new World;
+    gpu::Error error;
+    made->instance = gpu::Instance::create({.validation = true}, error);
+    EXPECT_TRUE(made->instance) << to_string(error);
+    const gpu::Adapter adapter = made->instance.request_adapter({}, error);
+    EXPECT_TRUE(adapter) << to_string(error);
+    const gpu::Feature wanted = gpu::Feature::GeometryShader | gpu::Feature::TimestampQuery;
+    made->device = adapter.request_device({.required_features = wanted & adapter.features(), .fill_new_memory = true}, error);
+    EXPECT_TRUE(made->device) << to_string(error);
+    made->device.on_uncaptured_error([made](const gpu::Error& e) { made->uncaptured.push_back(to_string(e)); });
+    return made;
+  }();
+  return *w;
+}
+
+template <class T> std::vector<T> read(gpu::Device device, const gpu::Texture& texture) {
+  const std::vector<std::byte> bytes = device.read_texture(texture);
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+double percentile(std::vector<double>& values, double p) {
+  if (values.empty()) return 0.0;
+  const auto k = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + k, values.end());
+  return values[static_cast<std::size_t>(k)];
+}
+
+} // namespace
+
+void GpuTest::SetUp() { ASSERT_TRUE(world().device); }
+
+void GpuTest::TearDown() {
+  EXPECT_TRUE(world().uncaptured.empty()) << world().uncaptured.front();
+  const auto messages = world().instance.validation_messages();
+  EXPECT_TRUE(messages.empty()) << messages.front();
+}
+
+gpu::Device GpuTest::device() { return world().device; }
+
+Picture GpuTest::draw(const Scene& scene, const View& view, const passes::FrameOptions& options, const std::vector<std::string>& settings) {
+  rg::Registry registry;
+  passes::register_builtin_passes(registry);
+  rg::CompileOptions roots;
+  for (const char* source : {"opaque.color", "opaque.aov_depth", "opaque.aov_id", "opaque.aov_normal"})
+    roots.roots.push_back({source, {"test"}});
+  const auto graph = rg::compile_file(MOTE_SOURCE_DIR "/app/graphs/default.toml", registry, roots, settings);
+  EXPECT_TRUE(graph.plan) << to_string(graph.diagnostics);
+  if (!graph.plan) return {};
+
+  passes::ParticleStore store(device());
+  store.upload(scene);
+  const passes::DisplaySettings display{.config = &world().config};
+  rg::FrameInput frame;
+  frame.set(&scene);
+  frame.set(&view);
+  frame.set(&options);
+  frame.set(&display);
+  frame.set(static_cast<const passes::ParticleStore*>(&store));
+  rg::Executor executor(device(), *graph.plan, graph.passes);
+  executor.execute(frame, {view.size.width, view.size.height});
+
+  Picture picture;
+  picture.size = view.size;
+  picture.depth = read<float>(device(), executor.texture("opaque.aov_depth"));
+  picture.id = read<std::uint32_t>(device(), executor.texture("opaque.aov_id"));
+  picture.normal = read<glm::vec4>(device(), executor.texture("opaque.aov_normal"));
+  for (const std::uint64_t half : read<std::uint64_t>(device(), executor.texture("opaque.color")))
+    picture.color.push_back(glm::unpackHalf4x16(half));
+  picture.display = read<glm::u8vec4>(device(), executor.output());
+  return picture;
+}
+
+Scene scene_of(const std::vector<glm::dvec4>& spheres, const std::vector<std::uint32_t>& colors) {
+  std::vector<glm::dvec3> centers;
+  std::vector<double> radii;
+  std::vector<std::uint32_t> rows, kept;
+  Scene scene;
+  for (std::uint32_t i = 0; i < spheres.size(); ++i) {
+    if (!(spheres[i].w > 0)) continue;
+    centers.push_back(glm::dvec3(spheres[i]));
+    radii.push_back(spheres[i].w);
+    rows.push_back(i);
+    if (!colors.empty()) kept.push_back(colors[i % colors.size()]);
+    scene.bounds.add(centers.back(), radii.back());
+  }
+  Batch batch;
+  batch.chunks = std::make_shared<ChunkSet>(build_spheres(centers, radii, rows, kept));
+  batch.instances.resize(1);
+  batch.row_count = spheres.size();
+  scene.batches.push_back(std::move(batch));
+  scene.lights.push_back({.kind = LightKind::Headlight, .intensity = 0.8});
+  return scene;
+}
+
+namespace {
+View finish(Camera camera, const Scene& scene, glm::dvec3 eye, glm::dvec3 target, Size2d size) {
+  camera.eye = eye;
+  camera.target = target;
+  camera.up = std::abs(glm::normalize(target - eye).y) > 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+  EXPECT_EQ(check(camera), "");
+  return make_view(camera, size, scene.bounds.diagonal());
+}
+} // namespace
+
+View look(const Scene& scene, glm::dvec3 eye, glm::dvec3 target, Size2d size, double fov_y) {
+  Camera camera;
+  camera.fov_y = fov_y;
+  return finish(camera, scene, eye, target, size);
+}
+
+View look_orthographic(const Scene& scene, glm::dvec3 eye, glm::dvec3 target, Size2d size, double height) {
+  Camera camera;
+  camera.projection = Projection::Orthographic;
+  camera.height = height;
+  return finish(camera, scene, eye, target, size);
+}
+
+void expect_equals_reference(const Picture& picture, const Scene& scene, const View& view, const Bars& bars) {
+  const ReferencePicture reference = render_reference(scene, view);
+  ASSERT_EQ(picture.id.size(), reference.id.size());
+  std::size_t wrong = 0, first = 0, hits = 0, ambiguous = 0;
+  std::vector<double> depth, normal;
+  double worst_color = 0.0;
+  for (std::size_t i = 0; i < reference.id.size(); ++i) {
+    hits += reference.id[i] != reference_no_id;
+    ambiguous += reference.ambiguous[i];
+    if (reference.ambiguous[i]) continue;
+    if (picture.id[i] != reference.id[i]) {
+      if (wrong++ == 0) first = i;
+      continue;
+    }
+    if (reference.id[i] == reference_no_id) {
+      EXPECT_EQ(picture.depth[i], std::numeric_limits<float>::infinity());
+      continue;
+    }
+    depth.push_back(std::abs(picture.depth[i] - reference.depth[i]) / reference.depth[i]);
+    const glm::dvec3 n(picture.normal[i]);
+    normal.push_back(std::atan2(glm::length(glm::cross(n, reference.normal[i])), glm::dot(n, reference.normal[i])));
+    const glm::dvec4 c = glm::abs(glm::dvec4(picture.color[i]) - reference.color[i]);
+    worst_color = std::max({worst_color, c.r, c.g, c.b});
+  }
+  EXPECT_EQ(wrong, 0u) << "first at pixel " << first % picture.size.width << "," << first / picture.size.width << ": id "
+                       << picture.id[first] << ", reference " << reference.id[first] << ", depth " << reference.depth[first];
+  EXPECT_LT(static_cast<double>(ambiguous), bars.most_ambiguous * static_cast<double>(reference.id.size())) << "most pixels must count";
+  EXPECT_GE(static_cast<double>(hits), bars.least_hits * static_cast<double>(reference.id.size()));
+  if (depth.empty()) return;
+  EXPECT_LE(percentile(depth, 0.5), 6e-8 * bars.depth_factor);
+  EXPECT_LE(percentile(depth, 0.99), 2.5e-7 * bars.depth_factor);
+  EXPECT_LE(worst_color, 1.0 / 255.0);
+  // R of the smallest particle that is seen is not known here; a tenth of a pixel bounds what a pixel center can hit often.
+  EXPECT_LE(percentile(normal, 0.99), 1e-6 + 1.5e-4 / 0.5);
+  EXPECT_LE(percentile(normal, 0.5), 1e-6 + 1.5e-4);
+}
+
+} // namespace mote::test

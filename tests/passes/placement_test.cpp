@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Placement and culling without a device: what the CPU does for every frame.
+#include "passes/particles/frame_uniform.hpp"
+#include "passes/particles/placement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <random>
+
+using namespace mote;
+using namespace mote::passes;
+
+namespace {
+
+View view_from(glm::dvec3 eye, glm::dvec3 target, Projection projection = Projection::Perspective) {
+  Camera camera;
+  camera.projection = projection;
+  camera.eye = eye;
+  camera.target = target;
+  camera.up = {0, 1, 0};
+  camera.height = 10;
+  return make_view(camera, {640, 360}, 100.0);
+}
+
+ChunkSet one_chunk(glm::dvec3 origin, float half) {
+  ChunkSet set;
+  set.chunks.push_back({.origin = origin, .box_min = glm::vec3(-half), .box_max = glm::vec3(half), .count = 1});
+  return set;
+}
+
+glm::vec3 origin_of(const PlacedChunk& p) {
+  return {std::bit_cast<float>(p.bits.x), std::bit_cast<float>(p.bits.y), std::bit_cast<float>(p.bits.z)};
+}
+
+std::vector<PlacedChunk> place(const ChunkSet& set, const View& view, const glm::dmat4& m = glm::dmat4(1)) {
+  std::vector<PlacedChunk> out;
+  place_chunks(set, 0, set.chunks.size(), {m}, view, ViewCuller(view), out);
+  return out;
+}
+
+// A million units from the origin the origin of a chunk is as exact as at the origin.
+TEST(Placement, IsExactFarFromTheOrigin) {
+  for (const double offset : {0.0, 1e3, 1e6, 1e9}) {
+    const glm::dvec3 shift(offset, -offset, offset);
+    const View view = view_from(shift + glm::dvec3(0, 0, 100), shift);
+    const auto placed = place(one_chunk(shift + glm::dvec3(1.25, -2.5, 3.0), 1.0f), view);
+    ASSERT_EQ(placed.size(), 1u);
+    EXPECT_NEAR(origin_of(placed[0]).x, 1.25, 1e-6);
+    EXPECT_NEAR(origin_of(placed[0]).y, 2.5, 1e-6); // y points down
+    EXPECT_NEAR(origin_of(placed[0]).z, 97.0, 1e-5);
+  }
+}
+
+TEST(Placement, InstancesMoveChunks) {
+  const View view = view_from({0, 0, 100}, {0, 0, 0});
+  glm::dmat4 m(2.0); // scale 2, then move
+  m[3] = glm::dvec4(5, 0, 0, 1);
+  const auto placed = place(one_chunk({1, 0, 0}, 1.0f), view, m);
+  ASSERT_EQ(placed.size(), 1u);
+  EXPECT_NEAR(origin_of(placed[0]).x, 7.0, 1e-6);
+}
+
+// Never culls what a pixel could see: a point of the box inside the image keeps the chunk.
+TEST(Placement, CullingIsConservative) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(-1, 1);
+  int culled = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Projection projection = i % 3 ? Projection::Perspective : Projection::Orthographic;
+    const View view = view_from(glm::dvec3(u(random), u(random), u(random)) * 20.0, glm::dvec3(u(random), u(random), u(random)), projection);
+    const float half = std::pow(10.0f, static_cast<float>(u(random)));
+    const ChunkSet set = one_chunk(glm::dvec3(u(random), u(random), u(random)) * 30.0, half);
+    bool seen = false;
+    for (int k = 0; k < 64 && !seen; ++k) {
+      const glm::dvec3 p = view.to_view(set.chunks[0].origin + glm::dvec3(u(random), u(random), u(random)) * double(half));
+      if (p.z <= 0) continue;
+      const double w = projection == Projection::Perspective ? p.z : 1.0;
+      seen = std::abs(p.x / w * view.focal) <= 320 && std::abs(p.y / w * view.focal) <= 180;
+    }
+    const bool kept = !place(set, view).empty();
+    culled += !kept;
+    if (seen) ASSERT_TRUE(kept) << "case " << i;
+  }
+  EXPECT_GT(culled, 2000); // and it does cull
+}
+
+TEST(Placement, NearAndFarCut) {
+  View view = view_from({0, 0, 100}, {0, 0, 0});
+  EXPECT_EQ(place(one_chunk({0, 0, 110}, 1.0f), view).size(), 0u) << "behind the eye";
+  EXPECT_EQ(place(one_chunk({0, 0, 100.5}, 1.0f), view).size(), 1u) << "around the eye";
+  view.near_cut = 50;
+  EXPECT_EQ(place(one_chunk({0, 0, 60}, 1.0f), view).size(), 0u);
+  EXPECT_EQ(place(one_chunk({0, 0, 50.5}, 1.0f), view).size(), 1u);
+  view.far_cut = 60;
+  EXPECT_EQ(place(one_chunk({0, 0, 0}, 1.0f), view).size(), 0u);
+}
+
+// Lights arrive in view space: x right, y down, z forward.
+TEST(FrameBlock, PutsLightsIntoViewSpace) {
+  Scene scene;
+  scene.lights.resize(3);
+  scene.lights[0].kind = LightKind::Headlight;
+  scene.lights[1].kind = LightKind::Directional;
+  scene.lights[1].direction = {0, -2, 0}; // travels down the world's y
+  scene.lights[1].intensity = 0.5;
+  scene.lights[2].kind = LightKind::Point;
+  scene.lights[2].position = {3, 0, 90};
+  scene.lights[2].attenuation = {1, 0, 2};
+  const FrameBlock block = frame_block(scene, view_from({0, 0, 100}, {0, 0, 0}));
+  EXPECT_EQ(block.lights[0].position, glm::vec4(0, 0, -1, 0));
+  EXPECT_NEAR(block.lights[1].position.y, -1.0, 1e-6) << "to the light is up, which is -y";
+  EXPECT_EQ(block.lights[1].position.w, 0.0f);
+  EXPECT_FLOAT_EQ(block.lights[1].strength.r, 0.5f);
+  EXPECT_NEAR(block.lights[2].position.x, 3.0, 1e-6);
+  EXPECT_NEAR(block.lights[2].position.z, 10.0, 1e-5);
+  EXPECT_EQ(block.lights[2].position.w, 1.0f);
+  EXPECT_EQ(block.lights[2].attenuation.z, 2.0f);
+  EXPECT_FLOAT_EQ(block.viewport.z * block.viewport.w, 1.0f);
+}
+
+} // namespace
