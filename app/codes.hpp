@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Every code that the library and the command line report by themselves, one line each for
+// docs/errors.md; what they pass on (scene, data, graph, color, device) has codes of its own. A code keeps
+// its meaning for ever; new ones go to the end.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace mote::app {
+
+namespace code {
+inline constexpr std::string_view command_line = "A001";
+inline constexpr std::string_view size = "A002";
+inline constexpr std::string_view output_ending = "A003";
+inline constexpr std::string_view aov_request = "A004";
+inline constexpr std::string_view aov_not_made = "A005";
+inline constexpr std::string_view shipped_graph = "A006";
+inline constexpr std::string_view device_failed = "A007";
+inline constexpr std::string_view too_many_ids = "A008";
+inline constexpr std::string_view not_there_yet = "A009";
+inline constexpr std::string_view no_window = "A010";
+inline constexpr std::string_view set_target = "A011";
+inline constexpr std::string_view output_texture = "A012";
+inline constexpr std::string_view compare_input = "A013";
+inline constexpr std::string_view validation = "A014";
+inline constexpr std::string_view twice_to_stdout = "A015";
+inline constexpr std::string_view alpha_ignored = "A020";
+inline constexpr std::string_view shadows_ignored = "A021";
+inline constexpr std::string_view tolerance_ignored = "A022";
+} // namespace code
+
+struct AppCode {
+  std::string_view code{}, line{};
+};
+inline constexpr std::array<AppCode, 18> app_codes{{
+    {code::command_line, "usage: an unknown option, a missing argument, words that do not fit together"},
+    {code::size, "usage: --size is not WIDTHxHEIGHT, each from 1 to 65536"},
+    {code::output_ending, "usage: an output file of an ending that cannot be written"},
+    {code::aov_request, "usage: --aov or --dump is not NAME=FILE with a known name"},
+    {code::aov_not_made, "usage: no pass of the graph makes the AOV"},
+    {code::shipped_graph, "usage: there is no shipped graph of that name"},
+    {code::device_failed, "failed: the device reported an error while drawing"},
+    {code::too_many_ids, "failed: more particles than the id AOV can count"},
+    {code::not_there_yet, "usage: a command that this version does not have"},
+    {code::no_window, "failed: there is no window"},
+    {code::set_target, "usage: --set names neither a key of the scene nor a pass of the graph"},
+    {code::output_texture, "failed: the graph's output or a dump is of a format that the file cannot hold"},
+    {code::compare_input, "input: a file that compare cannot take as a picture"},
+    {code::validation, "failed: the validation layer had something to say"},
+    {code::twice_to_stdout, "usage: two outputs to standard output"},
+    {code::alpha_ignored, "warning: transparent particles are drawn opaque"},
+    {code::shadows_ignored, "warning: shadows are not drawn"},
+    {code::tolerance_ignored, "warning: the tolerance is not used"},
+}};
+
+} // namespace mote::app

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// mote bench: how long frames take. A frame is recorded, submitted and waited for, with the display pass
+// and without reading it back; the camera turns half a degree about the vertical each frame. The first
+// frame (which makes pipelines) and two more are not in the statistics.
+#include "app/codes.hpp"
+#include "app/commands/command.hpp"
+#include "core/scene/generated.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+namespace mote::app {
+namespace {
+
+constexpr int warm_up = 3;
+
+struct BenchArguments {
+  SceneArguments scene{};
+  DeviceArguments device{};
+  int frames{20};
+  bool json{};
+};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+struct PassTimes {
+  std::string name{};
+  std::vector<double> gpu{}, cpu{};
+};
+
+struct Measured {
+  double first{};
+  std::vector<double> frames{}; // ms
+  std::vector<PassTimes> passes{};
+};
+
+Measured measure(FrameRenderer& renderer, const Job& job, int frames) {
+  using Clock = std::chrono::steady_clock;
+  Measured out;
+  for (int k = 0; k < warm_up + frames; ++k) {
+    const View view = job.view_of(turned(job.scene.camera, degrees_per_frame * k));
+    const Clock::time_point start = Clock::now();
+    renderer.wait(renderer.draw(view));
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    if (k == 0) out.first = ms;
+    if (k < warm_up) continue;
+    out.frames.push_back(ms);
+    const std::vector<rg::PassTiming>& timings = renderer.timings();
+    out.passes.resize(timings.size());
+    for (std::size_t i = 0; i < timings.size(); ++i) {
+      out.passes[i].name = timings[i].name;
+      out.passes[i].cpu.push_back(timings[i].cpu_ms);
+      if (timings[i].gpu_ms) out.passes[i].gpu.push_back(*timings[i].gpu_ms);
+    }
+  }
+  return out;
+}
+
+double rounded(double ms) { return std::round(ms * 1000.0) / 1000.0; }
+
+void print_json(const Measured& m, const std::string& device, std::string_view expansion, std::uint64_t primitives) {
+  nlohmann::ordered_json json;
+  json["median_ms"] = rounded(median(m.frames));
+  json["min_ms"] = rounded(*std::min_element(m.frames.begin(), m.frames.end()));
+  json["max_ms"] = rounded(*std::max_element(m.frames.begin(), m.frames.end()));
+  json["first_ms"] = rounded(m.first);
+  json["device"] = device;
+  json["expansion"] = expansion;
+  json["primitives"] = primitives;
+  json["passes"] = nlohmann::ordered_json::array();
+  for (const PassTimes& pass : m.passes) {
+    nlohmann::ordered_json row;
+    row["name"] = pass.name;
+    row["gpu_ms"] = pass.gpu.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(rounded(median(pass.gpu)));
+    row["cpu_ms"] = rounded(median(pass.cpu));
+    json["passes"].push_back(std::move(row));
+  }
+  fmt::print("{}\n", json.dump(2));
+}
+
+void print_text(const Measured& m, const std::string& device, std::string_view expansion, std::uint64_t primitives) {
+  fmt::print("{} particles on {}, expansion {}\n", primitives, device, expansion);
+  fmt::print("median {:.2f} ms, from {:.2f} to {:.2f} ms over {} frames; first frame {:.1f} ms\n", median(m.frames),
+             *std::min_element(m.frames.begin(), m.frames.end()), *std::max_element(m.frames.begin(), m.frames.end()),
+             m.frames.size(), m.first);
+  for (const PassTimes& pass : m.passes)
+    fmt::print("  {:<16} device {:>8.2f} ms   recording {:>7.2f} ms\n", pass.name, median(pass.gpu), median(pass.cpu));
+}
+
+void run(const BenchArguments& a) {
+  const JobRequest request = job_request(a.scene);
+  const passes::Expansion expansion = parse_expansion(a.scene.expansion);
+  Diagnostics diagnostics;
+  const Job job = load_job(request, diagnostics);
+  std::optional<ReadyGraph> graph;
+  if (!diagnostics.has_errors()) graph = ready_graph(job.graph, diagnostics);
+  print_and_stop_on_errors(diagnostics);
+  const ColorConfig config = ColorConfig::load(a.device.display.config);
+  DrawingDevice device(a.device.device);
+  FrameRenderer renderer(device, std::move(*graph), config, a.device.display, expansion);
+  renderer.set_scene(job.scene);
+  const Measured measured = measure(renderer, job, a.frames);
+  const std::string_view used = passes::to_string(renderer.expansion());
+  (a.json ? print_json : print_text)(measured, device.info().name, used, job.scene.particle_count());
+}
+
+} // namespace
+
+void add_bench(CLI::App& app, Exit& exit) {
+  CLI::App* command = app.add_subcommand("bench", "measure how long frames take");
+  auto a = std::make_shared<BenchArguments>();
+  add_scene_arguments(*command, a->scene);
+  add_device_arguments(*command, a->device);
+  command->add_option("--frames", a->frames, "frames in the statistics; three more warm up")->check(CLI::Range(1, 100000))->type_name("N");
+  command->add_flag("--json", a->json, "as JSON");
+  command->callback([a, &exit] {
+    run(*a);
+    exit = Exit::Done;
+  });
+}
+
+} // namespace mote::app

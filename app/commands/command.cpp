@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands/command.hpp"
+
+#include "app/codes.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdio>
+
+namespace mote::app {
+
+void add_scene_arguments(CLI::App& command, SceneArguments& a) {
+  command.add_option("SCENE", a.words, "a scene file, particle files, or a generated scene like spheres:1e5:fill")->required();
+  command.add_option("--set", a.settings, "change a value: camera.fov_y=40, light.sun.intensity=2, display.exposure=1")
+      ->allow_extra_args(false)
+      ->type_name("PATH=VALUE");
+  command.add_option("--graph", a.graph, "shipped graph or graph file")->type_name("GRAPH");
+  command.add_option("--size", a.size, "size of the picture in pixels, 1280x720 if not given")->type_name("WxH");
+  command.add_option("--expansion", a.expansion, "how particles become fragments: auto, vertex, geometry")->type_name("NAME");
+}
+
+void add_device_arguments(CLI::App& command, DeviceArguments& a) {
+  command.add_option("--device", a.device.name, "part of a Vulkan device's name")->type_name("NAME");
+  command.add_flag("--validation", a.device.validation, "run with the Vulkan validation layer; its messages are failures");
+  command.add_option("--ocio", a.display.config, "OpenColorIO config instead of $OCIO or the shipped one")->type_name("FILE");
+  command.add_option("--display", a.display.display, "display of the color config")->type_name("NAME");
+  command.add_option("--view", a.display.view, "view transform: Un-tone-mapped, ACES SDR, Raw, or the config's")->type_name("NAME");
+  command.add_flag("--exact", a.display.exact, "OpenColorIO's arithmetic instead of baked curves");
+}
+
+Size2d parse_size(std::string_view text) {
+  Size2d size;
+  const char* const end = text.data() + text.size();
+  const auto [x, first] = std::from_chars(text.data(), end, size.width);
+  const bool middle = first == std::errc{} && x != end && (*x == 'x' || *x == 'X');
+  const auto [last, second] = std::from_chars(middle ? x + 1 : end, end, size.height);
+  constexpr std::uint32_t most = 65536;
+  const bool sound = middle && second == std::errc{} && last == end && size.width >= 1 && size.height >= 1 &&
+                     size.width <= most && size.height <= most;
+  if (!sound)
+    fail(Exit::Usage, code::size, {"--size"}, fmt::format("'{}' is not a size: WIDTHxHEIGHT, each from 1 to {}", text, most),
+         {"For example --size 1280x720"});
+  return size;
+}
+
+passes::Expansion parse_expansion(const std::string& word) {
+  passes::Expansion expansion{};
+  if (passes::parse_expansion(word, expansion)) return expansion;
+  std::vector<std::string> names;
+  for (std::string_view name : passes::expansion_names()) names.emplace_back(name);
+  fail(Exit::Usage, code::command_line, {"--expansion"}, fmt::format("there is no expansion '{}'", word),
+       {did_you_mean(word, names), fmt::format("Expansions: {}", list_of(names))});
+}
+
+std::pair<std::string, std::string> split_request(const std::string& option, const std::string& request) {
+  const std::size_t equals = request.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == request.size())
+    fail(Exit::Usage, code::aov_request, {option}, fmt::format("'{}' is not NAME=FILE", request),
+         {fmt::format("For example {} {}", option, option == "--aov" ? "depth=depth.npy" : "opaque.color=color.npy")});
+  return {request.substr(0, equals), request.substr(equals + 1)};
+}
+
+JobRequest job_request(const SceneArguments& a) {
+  JobRequest request;
+  request.words = a.words;
+  request.settings = a.settings;
+  if (!a.graph.empty()) request.graph = a.graph;
+  request.size = parse_size(a.size);
+  return request;
+}
+
+void print(const Diagnostics& diagnostics) { std::fputs(to_string(diagnostics).c_str(), stderr); }
+
+void print_and_stop_on_errors(const Diagnostics& diagnostics) {
+  print(diagnostics);
+  if (diagnostics.has_errors()) throw Stop{exit_of(diagnostics)};
+}
+
+namespace {
+
+volatile sig_atomic_t waiting_signal = 0;
+volatile sig_atomic_t uninterrupted = 0;
+
+int status_of(int signal) { return static_cast<int>(signal == SIGTERM ? Exit::Terminated : Exit::Interrupted); }
+
+extern "C" void on_signal(int signal) {
+  if (uninterrupted) waiting_signal = signal;
+  else _exit(status_of(signal));
+}
+
+} // namespace
+
+Uninterrupted::Uninterrupted() { uninterrupted = 1; }
+Uninterrupted::~Uninterrupted() {
+  uninterrupted = 0;
+  if (waiting_signal) _exit(status_of(waiting_signal));
+}
+
+void install_signal_handlers() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  action.sa_handler = SIG_IGN; // a closed pipe is an error of the write, not the end of the program
+  sigaction(SIGPIPE, &action, nullptr);
+}
+
+} // namespace mote::app

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Draws one scene with one graph on one device, as often as asked, and reads pictures back: the glue
+// between scene, passes and render graph that the command line, the library and the window share.
+//
+//   FrameRenderer renderer(device, ready_graph, display);
+//   renderer.set_scene(scene);
+//   renderer.draw(view);                   // submits, does not wait
+//   DrawnPicture picture = renderer.read(); // waits
+#pragma once
+
+#include "app/library/device.hpp"
+#include "app/library/graphs.hpp"
+#include "app/library/picture.hpp"
+#include "core/color/color_config.hpp"
+#include "core/scene/scene.hpp"
+#include "passes/frame.hpp"
+#include "passes/particles/particle_store.hpp"
+#include "render_graph/executor.hpp"
+
+#include <memory>
+#include <string>
+
+namespace mote::app {
+
+struct DisplayOptions {
+  std::string config{};           // path of an OpenColorIO config; empty: $OCIO, else the shipped one
+  std::string display{}, view{};  // empty: the config's defaults
+  double exposure{};              // stops
+  bool exact{};                   // OpenColorIO's arithmetic instead of baked curves
+};
+
+class FrameRenderer {
+public:
+  // `config` and `device` must outlive the renderer.
+  FrameRenderer(DrawingDevice& device, ReadyGraph graph, const ColorConfig& config, const DisplayOptions& display,
+                passes::Expansion expansion);
+
+  void set_scene(const Scene& scene); // uploads; `scene` must outlive the drawing
+  // Records and submits a frame. Throws Failure when a pass or the device reports an error.
+  gpu::Submission draw(const View& view);
+  void wait(gpu::Submission submission);
+  // What the last frame gave: the output, and whatever the graph was asked for. Waits.
+  DrawnPicture read();
+  // One texture or buffer of the graph, to .npy, or to .exr if it is a color or a number a pixel.
+  void dump(const std::string& source, const std::string& path);
+
+  [[nodiscard]] const rg::Plan& plan() const { return executor_.plan(); }
+  [[nodiscard]] const std::vector<rg::PassTiming>& timings() { return executor_.timings(true); }
+  // "sRGB / Un-tone-mapped", once a frame was drawn.
+  [[nodiscard]] const std::string& display_text() const { return *display_text_; }
+  [[nodiscard]] passes::Expansion expansion() const; // the one in force
+
+private:
+  [[nodiscard]] std::vector<float> read_floats(const std::string& source); // RGBA
+
+  DrawingDevice& device_;
+  ReadyGraph graph_;
+  passes::FrameOptions options_{};
+  passes::DisplaySettings display_{};
+  std::shared_ptr<std::string> display_text_ = std::make_shared<std::string>();
+  passes::ParticleStore store_;
+  rg::Executor executor_;
+  const Scene* scene_{};
+  View view_{};
+};
+
+} // namespace mote::app

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "app/library/graphs.hpp"
+
+#include "app/codes.hpp"
+#include "app/library/shipped_graphs.hpp"
+#include "passes/builtin.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace mote::app {
+namespace {
+
+const std::vector<std::string> scene_keys{"schema", "graph", "color_space", "background", "tolerance",
+                                          "camera", "ambient", "light",     "data"};
+
+bool is_path(std::string_view graph) { return graph.find('/') != std::string_view::npos || graph.ends_with(".toml"); }
+
+// The last pass of the file that can make this output.
+std::string source_of_slot(const rg::GraphDesc& graph, const std::string& slot) {
+  static const std::vector<rg::KindInfo> kinds = rg::describe(registry());
+  std::string found;
+  for (const rg::PassDesc& pass : graph.passes)
+    for (const rg::KindInfo& kind : kinds)
+      if (pass.enabled && kind.name == pass.kind.text)
+        for (const rg::Slot& s : kind.slots)
+          if (s.name == slot && rg::writes(s.access)) found = pass.name.text + "." + slot;
+  return found;
+}
+
+rg::PassDesc* pass_of_output(rg::GraphDesc& graph) {
+  const std::optional<rg::Source> source = rg::split_source(graph.output.text);
+  if (!source) return nullptr;
+  for (rg::PassDesc& pass : graph.passes)
+    if (pass.name.text == source->pass) return &pass;
+  return nullptr;
+}
+
+// What the display transform at the end of the graph reads, or the output itself when there is none.
+std::string linear_source(rg::GraphDesc& graph) {
+  if (const rg::PassDesc* last = pass_of_output(graph); last && last->kind.text == "ocio_tonemap")
+    for (const rg::InputDesc& input : last->inputs)
+      if (input.slot.text == "color") return input.source.text;
+  return graph.output.text;
+}
+
+void deepen_output(rg::GraphDesc& graph) {
+  const std::optional<rg::Source> source = rg::split_source(graph.output.text);
+  rg::PassDesc* pass = pass_of_output(graph);
+  if (!pass || !source) return;
+  const rg::LocatedString format{"rgba32float", {"--bits"}};
+  for (rg::OutputDesc& output : pass->outputs)
+    if (output.slot.text == source->slot) {
+      output.format = format;
+      return;
+    }
+  rg::OutputDesc output;
+  output.slot = {source->slot, {"--bits"}};
+  output.format = format;
+  pass->outputs.push_back(std::move(output));
+}
+
+void check_settings(const GraphRequest& request, const rg::GraphDesc& graph, Diagnostics& diagnostics) {
+  const std::vector<std::string> passes = pass_names(graph);
+  if (passes.empty()) return; // the graph is broken, and that is reported
+  for (const std::string& setting : request.settings) {
+    const std::string word(first_word(setting));
+    if (std::find(passes.begin(), passes.end(), word) != passes.end()) continue;
+    std::vector<std::string> all = scene_keys;
+    all.insert(all.end(), passes.begin(), passes.end());
+    diagnostics.error(code::set_target, {"--set"},
+                      fmt::format("'{}': '{}' is neither a key of the scene nor a pass of the graph", setting, word),
+                      {did_you_mean(word, all), fmt::format("Keys of a scene: {}", list_of(scene_keys)),
+                       fmt::format("Passes of this graph: {}", list_of(passes))});
+  }
+}
+
+} // namespace
+
+const rg::Registry& registry() {
+  static const rg::Registry kinds = [] {
+    rg::Registry made;
+    passes::register_builtin_passes(made);
+    return made;
+  }();
+  return kinds;
+}
+
+std::vector<std::string> shipped_graphs() {
+  std::vector<std::string> names;
+  for (const ShippedGraph& graph : shipped_graph_texts()) names.emplace_back(graph.name);
+  return names;
+}
+
+std::vector<std::string> pass_names(const rg::GraphDesc& graph) {
+  std::vector<std::string> names;
+  for (const rg::PassDesc& pass : graph.passes) names.push_back(pass.name.text);
+  return names;
+}
+
+rg::GraphDesc load_graph(const GraphRequest& request, Diagnostics& diagnostics) {
+  if (is_path(request.graph)) {
+    const std::filesystem::path path(request.graph);
+    return rg::load_graph((path.is_absolute() ? path : request.folder / path).string(), diagnostics);
+  }
+  for (const ShippedGraph& graph : shipped_graph_texts())
+    if (graph.name == request.graph) return rg::parse_graph(graph.text, std::string(graph.name) + ".toml", diagnostics);
+  const std::vector<std::string> names = shipped_graphs();
+  fail(Exit::Usage, code::shipped_graph, request.loc, fmt::format("there is no shipped graph '{}'", request.graph),
+       {did_you_mean(request.graph, names), fmt::format("Shipped graphs: {}; a file is named with its ending .toml", list_of(names))});
+}
+
+std::optional<ReadyGraph> ready_graph(const GraphRequest& request, Diagnostics& diagnostics) {
+  Diagnostics found;
+  rg::GraphDesc graph = load_graph(request, found);
+  check_settings(request, graph, found);
+  if (!found.has_errors())
+    for (const std::string& setting : request.settings) rg::apply_setting(graph, setting, found);
+  if (request.deep) deepen_output(graph);
+
+  ReadyGraph ready;
+  ready.output = graph.output.text;
+  rg::CompileOptions options;
+  options.roots = request.dumps;
+  if (request.linear) {
+    ready.linear = linear_source(graph);
+    options.roots.push_back({ready.linear, {"--output"}});
+  }
+  for (Aov aov : request.aovs) {
+    const std::string name(aov_names[static_cast<std::size_t>(aov)]);
+    const std::string source = source_of_slot(graph, "aov_" + name);
+    if (source.empty())
+      found.error(code::aov_not_made, {"--aov"}, fmt::format("no pass of the graph '{}' makes the AOV '{}'", graph.name.text, name));
+    else options.roots.push_back({source, {"--aov"}});
+    ready.aovs[aov] = source;
+  }
+  rg::CompileResult result = rg::compile(graph, registry(), options, found);
+  for (const Diagnostic& d : result.diagnostics.list())
+    if (d.severity != Severity::Note) diagnostics.add(d);
+  if (!result.plan || diagnostics.has_errors()) return std::nullopt;
+  ready.plan = std::move(*result.plan);
+  ready.passes = std::move(result.passes);
+  return ready;
+}
+
+std::string_view first_word(std::string_view setting) { return setting.substr(0, setting.find_first_of(".[=")); }
+
+Settings split_settings(std::span<const std::string> settings) {
+  Settings out;
+  for (const std::string& setting : settings) {
+    const bool scene = std::find(scene_keys.begin(), scene_keys.end(), first_word(setting)) != scene_keys.end();
+    (scene ? out.scene : out.graph).push_back(setting);
+  }
+  return out;
+}
+
+} // namespace mote::app

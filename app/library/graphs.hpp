@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Which graph draws, and what of it is wanted. Finds the graph (shipped ones are embedded, so that the
+// library needs no files), applies settings, works out which sources answer AOVs and linear pictures,
+// and compiles. No device.
+#pragma once
+
+#include "core/base/diagnostic.hpp"
+#include "render_graph/compile.hpp"
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mote::app {
+
+enum class Aov : std::uint8_t { Depth, Id, Normal };
+inline constexpr std::array<std::string_view, 3> aov_names{"depth", "id", "normal"};
+
+struct GraphRequest {
+  std::string graph{"default"};             // shipped name or path
+  SourceLoc loc{};                          // where that stands
+  std::filesystem::path folder{};           // that a relative path is relative to
+  std::vector<std::string> settings{};      // "pass.parameter=value"
+  std::vector<Aov> aovs{};
+  std::vector<rg::LocatedString> dumps{};   // further sources
+  bool linear{};                            // the picture before the display transform, too
+  bool deep{};                              // the output in float instead of 8 bits
+};
+
+struct ReadyGraph {
+  rg::Plan plan{};
+  std::vector<std::shared_ptr<rg::Pass>> passes{};
+  std::string output{}; // source of the picture
+  std::string linear{}; // source of the scene-linear picture; empty if not asked for
+  std::map<Aov, std::string> aovs{};
+};
+
+std::vector<std::string> shipped_graphs();
+// What --set may name first: the passes of the graph. Empty when the graph cannot be read.
+std::vector<std::string> pass_names(const rg::GraphDesc& graph);
+
+// Throws Failure (Usage, A006) for a shipped name that does not exist; other problems go to `diagnostics`.
+rg::GraphDesc load_graph(const GraphRequest& request, Diagnostics& diagnostics);
+// Nothing when `diagnostics` then has errors.
+std::optional<ReadyGraph> ready_graph(const GraphRequest& request, Diagnostics& diagnostics);
+
+// All kinds that mote has.
+const rg::Registry& registry();
+
+// "scene key" or "pass": what a setting's path starts with.
+std::string_view first_word(std::string_view setting);
+struct Settings {
+  std::vector<std::string> scene{}, graph{};
+};
+// Those that start with a key of the scene file, and the rest.
+Settings split_settings(std::span<const std::string> settings);
+
+} // namespace mote::app

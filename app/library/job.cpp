@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "app/library/job.hpp"
+
+#include "app/codes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace mote::app {
+namespace {
+
+// What the scene asks for and no pass draws yet. The list shrinks with every pass kind that is added.
+void warn_of_limits(const SceneDesc& desc, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < desc.data.size(); ++i)
+    if (desc.data[i].alpha < 1.0)
+      diagnostics.warning(code::alpha_ignored, desc.data[i].loc,
+                          fmt::format("data[{}].alpha is {}: transparent particles are drawn opaque by this version", i, desc.data[i].alpha));
+  for (const Light& light : desc.lights)
+    if (light.shadows)
+      diagnostics.warning(code::shadows_ignored, {desc.name}, fmt::format("the light '{}' asks for shadows: this version draws none", light.name));
+  if (desc.tolerance)
+    diagnostics.warning(code::tolerance_ignored, desc.tolerance->loc,
+                        "the tolerance is not used: this version has one method, which is exact at the pixel centers");
+}
+
+void check_ids(const JobRequest& request, const Scene& scene, Diagnostics& diagnostics) {
+  const bool wanted = std::find(request.aovs.begin(), request.aovs.end(), Aov::Id) != request.aovs.end();
+  if (wanted && scene.particle_count() > 0xFFFFFFFEu)
+    diagnostics.error(code::too_many_ids, {"--aov"},
+                      fmt::format("the scene has {} particles; the id AOV counts 4294967294", scene.particle_count()));
+}
+
+} // namespace
+
+SceneDesc describe_job(const JobRequest& request, Diagnostics& diagnostics, GraphRequest& graph) {
+  const Settings settings = split_settings(request.settings);
+  SceneDesc desc = describe(request.words, settings.scene, diagnostics);
+  graph.settings = settings.graph;
+  if (request.graph) {
+    graph.graph = *request.graph;
+    graph.loc = {"--graph"};
+  } else if (desc.graph) {
+    graph.graph = desc.graph->value;
+    graph.loc = desc.graph->loc;
+    if (desc.graph->loc.file != "--set") graph.folder = desc.folder;
+  }
+  return desc;
+}
+
+Job load_job(const JobRequest& request, Diagnostics& diagnostics) {
+  Job job;
+  job.desc = describe_job(request, diagnostics, job.graph);
+  job.size = request.size;
+  job.graph.aovs = request.aovs;
+  job.graph.dumps = request.dumps;
+  job.graph.linear = request.linear;
+  job.graph.deep = request.deep;
+  if (diagnostics.has_errors()) return job;
+  job.scene = realize(job.desc, request.size, diagnostics);
+  if (request.transparent) job.scene.background.a = 0.0;
+  warn_of_limits(job.desc, diagnostics);
+  check_ids(request, job.scene, diagnostics);
+  return job;
+}
+
+Exit exit_of(const Diagnostics& diagnostics) {
+  if (!diagnostics.has_errors()) return Exit::Done;
+  for (const Diagnostic& d : diagnostics.list())
+    if (d.severity == Severity::Error && !d.loc.file.starts_with("--")) return Exit::BadInput;
+  return Exit::Usage;
+}
+
+} // namespace mote::app

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// From the words of a user (files, a scene, a generated name; settings; a size) to what a frame needs:
+// the scene, the view of it and the graph. Shared by all commands and the library. Reads files, touches
+// no device. Says what the scene asks for and this version does not draw.
+#pragma once
+
+#include "app/library/graphs.hpp"
+#include "core/scene/realize.hpp"
+
+namespace mote::app {
+
+struct JobRequest {
+  std::vector<std::string> words{};      // one scene, one generated name, or data files
+  std::vector<std::string> settings{};   // "path=value": of the scene or of the graph
+  std::optional<std::string> graph{};    // --graph; else the scene's, else "default"
+  Size2d size{1280, 720};
+  bool transparent{};                    // background of alpha 0
+  std::vector<Aov> aovs{};
+  std::vector<rg::LocatedString> dumps{};
+  bool linear{}, deep{};                 // as in GraphRequest
+};
+
+struct Job {
+  SceneDesc desc{};
+  Scene scene{};
+  GraphRequest graph{};
+  Size2d size{};
+  [[nodiscard]] View view() const { return view_of(scene.camera); }
+  [[nodiscard]] View view_of(const Camera& camera) const { return make_view(camera, size, scene.bounds.diagonal()); }
+};
+
+// With errors in `diagnostics` the job must not be run.
+Job load_job(const JobRequest& request, Diagnostics& diagnostics);
+// The particles of a generated scene or of files; the scene's own description otherwise. Throws as describe() does.
+SceneDesc describe_job(const JobRequest& request, Diagnostics& diagnostics, GraphRequest& graph);
+
+// The exit status that errors call for: Usage where all of them come from the command line, else BadInput.
+Exit exit_of(const Diagnostics& diagnostics);
+
+} // namespace mote::app
