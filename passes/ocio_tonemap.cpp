@@ -30,7 +30,7 @@ public:
   void declare(std::vector<rg::Slot>& slots, rg::Params& params) override {
     slots.push_back({.name = "color", .access = rg::Access::Sampled, .summary = "scene-linear color in the working space"});
     slots.push_back({.name = "color", .access = rg::Access::ColorWrite, .summary = "display color",
-                     .makes = rg::TextureSpec{.format = gpu::TextureFormat::RGBA8Unorm}});
+                     .makes = rg::TextureSpec{.format = gpu::TextureFormat::RGBA8Unorm}, .covers = true});
     request_.display = params.string("display", "", "display of the color config; empty: its default");
     request_.view = params.string("view", "", "view transform of the display; empty: its default");
     request_.exposure = params.number("exposure", 0.0, {.min = -30, .max = 30}, "stops");

@@ -74,8 +74,7 @@ public:
     const FrameBlock block = frame_block(scene, view);
     device.queue().write_buffer(frame_buffer_, 0, std::as_bytes(std::span(&block, 1)));
     placed_ = store.place(scene, view);
-    expansion_ = context.frame().get<FrameOptions>().expansion;
-    if (expansion_ == Expansion::Auto) expansion_ = Expansion::Vertex;
+    expansion_ = choose_expansion(context.frame().get<FrameOptions>().expansion, device, scene);
     std::uint32_t most = 0;
     for (const ParticleDraw& draw : placed_.draws) most = std::max(most, draw.particles);
     if (expansion_ == Expansion::Vertex) indices_.reserve(device, most);
@@ -89,6 +88,7 @@ public:
       if (!draws(draw.batch->type)) continue;
       ParticlePipelineKey key = key_for(scene, view, *draw.batch);
       key.expansion = expansion_;
+      key.near_eye = draw.near_eye;
       key.aovs = aovs_;
       key.targets = targets_;
       key.depth = depth_;
@@ -107,6 +107,22 @@ public:
 private:
   [[nodiscard]] bool draws(const std::string& type) const {
     return draw_.empty() || std::find(draw_.begin(), draw_.end(), type) != draw_.end();
+  }
+
+  // Auto is the vertex expansion: it works everywhere and was never slower. What is asked for and cannot be is P001.
+  Expansion choose_expansion(Expansion wanted, const gpu::Device& device, const Scene& scene) const {
+    const Expansion expansion = wanted == Expansion::Auto ? Expansion::Vertex : wanted;
+    if (expansion == Expansion::Geometry && !gpu::has(device.features(), gpu::Feature::GeometryShader))
+      fail(Exit::Failed, "P001", {}, "the device has no geometry stage, so expansion 'geometry' cannot be used", {"expansions that work here: vertex"});
+    for (const Batch& batch : scene.batches) {
+      const ParticleType* type = find_particle_type(batch.type);
+      if (draws(batch.type) && (!type || !supports(*type, expansion, Phase::Opaque)))
+        fail(Exit::Failed, "P001", {}, fmt::format("particle type '{}' cannot be drawn by expansion '{}'", batch.type, to_string(expansion)),
+             {"mote graph --kinds prints what works together"});
+    }
+    if (scene.lights.size() > max_lights)
+      fail(Exit::Failed, "P003", {}, fmt::format("the scene has {} lights; a frame holds {}", scene.lights.size(), max_lights));
+    return expansion;
   }
 
   void make_frame_group(gpu::Device& device, const ParticleStore& store) {

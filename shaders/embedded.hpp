@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The shipped shaders, embedded: SPIR-V by variant key, GLSL text by path below shaders/.
 // Keys: "<type>/vertex.vert", "<type>/geometry.vert", "<type>/geometry.geom",
-// "<type>/opaque.frag/aov<mask>", "post/fullscreen.vert" (shaders/CMakeLists.txt makes them).
+// "<type>/opaque.frag/aov<mask>", the same with "<type>/near" for particles placed on the CPU, and
+// "post/fullscreen.vert" (shaders/CMakeLists.txt makes them).
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,9 @@
 // Codes of the messages of core/compare.
 #pragma once
 
+#include <array>
 #include <string_view>
+#include <utility>
 
 namespace mote::compare_codes {
 
@@ -13,5 +15,15 @@ inline constexpr std::string_view sizes_differ = "K004";   // pictures of two si
 inline constexpr std::string_view nothing_common = "K005"; // no AOV or color that both have
 inline constexpr std::string_view not_measured = "K006";   // a limit on what the two do not both have
 inline constexpr std::string_view wrong_length = "K007";   // an array that does not fit the picture's size
+
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 7> table{{
+    {unknown_limit, "error: a limit of a name that no measure has"},
+    {bad_limit, "error: not name=number, or a negative number"},
+    {twice, "error: the same limit given twice"},
+    {sizes_differ, "error: pictures of two sizes"},
+    {nothing_common, "error: no AOV or color that both have"},
+    {not_measured, "error: a limit on what the two do not both have"},
+    {wrong_length, "error: an array that does not fit the picture's size"},
+}};
 
 } // namespace mote::compare_codes

@@ -25,7 +25,7 @@ struct FrameBlock {
 };
 static_assert(sizeof(LightBlock) == 80 && sizeof(FrameBlock) == 7 * 16 + 80 * max_lights, "std140, as in frame.glsl");
 
-// Lights beyond max_lights are left out: scene loading refuses such scenes before (S-code).
+// Precondition: at most max_lights lights (the pass refuses more, P003).
 FrameBlock frame_block(const Scene& scene, const View& view);
 
 } // namespace mote::passes

@@ -23,16 +23,27 @@ struct Resident {
   std::vector<Slice> slices{};
 };
 
+// Chunks of one slice and instance that are drawn together.
+struct Run {
+  const Batch* batch{};
+  std::size_t instance{};
+  const Slice* slice{};
+  std::uint32_t first{}, count{};  // among the placements
+  std::uint32_t first_near{};      // among the near payloads
+  bool near_eye{};
+};
+
 } // namespace
 
 struct ParticleStore::Impl {
   gpu::Device device;
   gpu::BindGroupLayout layout;
-  gpu::Buffer no_colors; // bound where a set has none; never read
+  gpu::Buffer nothing; // bound where there are no colors or no near particles; never read
   std::map<const ChunkSet*, Resident> residents;
   struct Placements {
-    gpu::Buffer buffer{};
+    gpu::Buffer buffer{}, near_buffer{};
     std::vector<PlacedChunk> chunks{};
+    std::vector<NearPayload> payloads{};
     std::map<const Slice*, gpu::BindGroup> groups{};
   };
   std::map<std::uint32_t, Placements> placements;
@@ -42,18 +53,20 @@ struct ParticleStore::Impl {
   }
   Resident make_resident(const std::shared_ptr<const ChunkSet>& set);
   gpu::BindGroup group_for(Placements& placed, const Slice& slice);
+  void write(gpu::Buffer& buffer, std::string_view label, std::span<const std::byte> contents, Placements& placed);
+  std::vector<Run> place_all(const Scene& scene, const View& view, Placements& placed, std::uint64_t& total) const;
 };
 
 ParticleStore::ParticleStore(gpu::Device device) : impl_(std::make_unique<Impl>()) {
   impl_->device = std::move(device);
-  std::array<gpu::BindGroupLayoutEntry, 4> entries;
+  std::array<gpu::BindGroupLayoutEntry, 5> entries;
   for (std::uint32_t i = 0; i < entries.size(); ++i)
     entries[i] = {.binding = i,
                   .visibility = gpu::ShaderStage::Vertex, // every expansion loads its record there
                   .type = gpu::BindingType::ReadOnlyStorageBuffer};
   impl_->layout = impl_->device.create_bind_group_layout({.label = "particles", .entries = entries});
   const std::array<std::uint32_t, 4> none{};
-  impl_->no_colors = impl_->storage("particles.no_colors", std::as_bytes(std::span(none)));
+  impl_->nothing = impl_->storage("particles.nothing", std::as_bytes(std::span(none)));
 }
 
 ParticleStore::~ParticleStore() = default;
@@ -71,7 +84,7 @@ Resident ParticleStore::Impl::make_resident(const std::shared_ptr<const ChunkSet
     const std::uint64_t record = first * chunk_capacity, count = slice.chunk_count * chunk_capacity;
     slice.records = storage("particles.records", bytes_of(std::span(set->records).subspan(record * set->vec4s_per_record, count * set->vec4s_per_record)));
     slice.rows = storage("particles.rows", bytes_of(std::span(set->rows).subspan(record, count)));
-    slice.colors = set->colors.empty() ? no_colors : storage("particles.colors", bytes_of(std::span(set->colors).subspan(record, count)));
+    slice.colors = set->colors.empty() ? nothing : storage("particles.colors", bytes_of(std::span(set->colors).subspan(record, count)));
     resident.slices.push_back(std::move(slice));
   }
   return resident;
@@ -100,62 +113,83 @@ void ParticleStore::upload(const Scene& scene) {
 gpu::BindGroup ParticleStore::Impl::group_for(Placements& placed, const Slice& slice) {
   gpu::BindGroup& group = placed.groups[&slice];
   if (!group) {
-    const std::array<gpu::BindGroupEntry, 4> entries{{{.binding = 0, .buffer = {&slice.records}},
+    const std::array<gpu::BindGroupEntry, 5> entries{{{.binding = 0, .buffer = {&slice.records}},
                                                       {.binding = 1, .buffer = {&slice.rows}},
                                                       {.binding = 2, .buffer = {&slice.colors}},
-                                                      {.binding = 3, .buffer = {&placed.buffer}}}};
+                                                      {.binding = 3, .buffer = {&placed.buffer}},
+                                                      {.binding = 4, .buffer = {placed.near_buffer ? &placed.near_buffer : &nothing}}}};
     group = device.create_bind_group({.label = "particles", .layout = &layout, .entries = entries});
   }
   return group;
 }
 
+void ParticleStore::Impl::write(gpu::Buffer& buffer, std::string_view label, std::span<const std::byte> contents, Placements& placed) {
+  if (contents.empty()) return;
+  if (!buffer || buffer.size() < contents.size()) {
+    placed.groups.clear();
+    buffer = device.create_buffer({.label = label, .size = contents.size() + contents.size() / 2,
+                                   .usage = gpu::BufferUsage::Storage | gpu::BufferUsage::CopyDst});
+  }
+  device.queue().write_buffer(buffer, 0, contents);
+}
+
+// Places every slice of every instance, in scene order; near chunks are a run of their own.
+std::vector<Run> ParticleStore::Impl::place_all(const Scene& scene, const View& view, Placements& placed, std::uint64_t& total) const {
+  std::vector<Run> runs;
+  const ViewCuller culler(view);
+  PlacedChunks chunks;
+  auto add = [&](const Batch& batch, std::size_t instance, const Slice& slice, const std::vector<PlacedChunk>& visible, bool near_eye) {
+    if (visible.empty()) return;
+    runs.push_back({&batch, instance, &slice, static_cast<std::uint32_t>(placed.chunks.size()), static_cast<std::uint32_t>(visible.size()),
+                    static_cast<std::uint32_t>(placed.payloads.size()), near_eye});
+    placed.chunks.insert(placed.chunks.end(), visible.begin(), visible.end());
+  };
+  for (const Batch& batch : scene.batches)
+    for (std::size_t k = 0; k < batch.instances.size(); ++k)
+      for (const Slice& slice : residents.at(batch.chunks.get()).slices) {
+        chunks.far.clear(), chunks.near.clear(), chunks.payloads.clear();
+        place_chunks(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler, chunks);
+        total += slice.chunk_count;
+        add(batch, k, slice, chunks.far, false);
+        add(batch, k, slice, chunks.near, true);
+        placed.payloads.insert(placed.payloads.end(), chunks.payloads.begin(), chunks.payloads.end());
+      }
+  return runs;
+}
+
+namespace {
+BatchBlock block_of(const Run& run, const View& view) {
+  const glm::dmat4& m = run.batch->instances[run.instance].world_from_data;
+  const glm::dmat3 linear = view.rotation * glm::dmat3(m);
+  const Material& material = run.batch->material;
+  BatchBlock block;
+  block.linear0_scale = glm::vec4(glm::vec3(linear[0]), static_cast<float>(similarity_scale(m).value_or(1.0)));
+  block.linear1 = glm::vec4(glm::vec3(linear[1]), 0.0f);
+  block.linear2 = glm::vec4(glm::vec3(linear[2]), 0.0f);
+  block.color = glm::vec4(glm::vec3(run.batch->color), static_cast<float>(run.batch->alpha));
+  block.material = glm::vec4(glm::dvec4(material.ambient, material.diffuse, material.specular, material.exponent));
+  block.id_base = static_cast<std::uint32_t>(run.batch->id_base + run.instance * run.batch->row_count);
+  block.first_placement = run.first;
+  block.first_near = run.first_near;
+  return block;
+}
+} // namespace
+
 PlacedView ParticleStore::place(const Scene& scene, const View& view, std::uint32_t slot) const {
   Impl::Placements& placed = impl_->placements[slot];
   placed.chunks.clear();
-  struct Run { const Batch* batch; const Instance* instance; std::uint64_t instance_index; const Slice* slice; std::uint32_t first, count; };
-  std::vector<Run> runs;
+  placed.payloads.clear();
   PlacedView result;
-  const ViewCuller culler(view);
-  for (const Batch& batch : scene.batches) {
-    const Resident& resident = impl_->residents.at(batch.chunks.get());
-    for (std::size_t k = 0; k < batch.instances.size(); ++k)
-      for (const Slice& slice : resident.slices) {
-        const std::size_t first = placed.chunks.size();
-        place_chunks(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler, placed.chunks);
-        result.chunks_total += slice.chunk_count;
-        if (placed.chunks.size() > first)
-          runs.push_back({&batch, &batch.instances[k], k, &slice, static_cast<std::uint32_t>(first),
-                          static_cast<std::uint32_t>(placed.chunks.size() - first)});
-      }
-  }
+  const std::vector<Run> runs = impl_->place_all(scene, view, placed, result.chunks_total);
   result.chunks_placed = placed.chunks.size();
-  if (placed.chunks.empty()) return result;
-
-  const std::uint64_t size = placed.chunks.size() * sizeof(PlacedChunk);
-  if (!placed.buffer || placed.buffer.size() < size) {
-    placed.groups.clear();
-    placed.buffer = impl_->device.create_buffer({.label = "particles.placements",
-                                                 .size = size + size / 2,
-                                                 .usage = gpu::BufferUsage::Storage | gpu::BufferUsage::CopyDst});
-  }
-  impl_->device.queue().write_buffer(placed.buffer, 0, bytes_of(std::span<const PlacedChunk>(placed.chunks)));
-
-  for (const Run& run : runs) {
-    const glm::dmat3 linear = view.rotation * glm::dmat3(run.instance->world_from_data);
-    const Material& m = run.batch->material;
-    ParticleDraw draw;
-    draw.batch = run.batch;
-    draw.group = impl_->group_for(placed, *run.slice);
-    draw.particles = run.count * chunk_capacity;
-    draw.block.linear0_scale = glm::vec4(glm::vec3(linear[0]), static_cast<float>(similarity_scale(run.instance->world_from_data).value_or(1.0)));
-    draw.block.linear1 = glm::vec4(glm::vec3(linear[1]), 0.0f);
-    draw.block.linear2 = glm::vec4(glm::vec3(linear[2]), 0.0f);
-    draw.block.color = glm::vec4(glm::vec3(run.batch->color), static_cast<float>(run.batch->alpha));
-    draw.block.material = glm::vec4(glm::dvec4(m.ambient, m.diffuse, m.specular, m.exponent));
-    draw.block.id_base = static_cast<std::uint32_t>(run.batch->id_base + run.instance_index * run.batch->row_count);
-    draw.block.first_placement = run.first;
-    result.draws.push_back(std::move(draw));
-  }
+  impl_->write(placed.buffer, "particles.placements", bytes_of(std::span<const PlacedChunk>(placed.chunks)), placed);
+  impl_->write(placed.near_buffer, "particles.near", bytes_of(std::span<const NearPayload>(placed.payloads)), placed);
+  for (const Run& run : runs)
+    result.draws.push_back({.batch = run.batch,
+                            .group = impl_->group_for(placed, *run.slice),
+                            .block = block_of(run, view),
+                            .particles = run.count * chunk_capacity,
+                            .near_eye = run.near_eye});
   return result;
 }
 

@@ -24,15 +24,16 @@ namespace mote::passes {
 struct BatchBlock {
   glm::vec4 linear0_scale{1, 0, 0, 1}, linear1{0, 1, 0, 0}, linear2{0, 0, 1, 0};
   glm::vec4 color{1}, material{1, 1, 0, 32};
-  std::uint32_t id_base{}, first_placement{};
+  std::uint32_t id_base{}, first_placement{}, first_near{};
 };
-static_assert(sizeof(BatchBlock) == 88);
+static_assert(sizeof(BatchBlock) == 92);
 
 struct ParticleDraw {
   const Batch* batch{};
   gpu::BindGroup group{};     // set 1
   BatchBlock block{};
   std::uint32_t particles{};  // places to expand: 64 a placed chunk
+  bool near_eye{};            // placed in double on the CPU: shaders with NEAR_EYE
 };
 
 // One view's draws and the buffer that their placements live in.

@@ -17,7 +17,7 @@ constexpr std::size_t most_pipelines = 256; // far above what scenes use; beyond
 }
 
 std::string to_string(const ParticlePipelineKey& k) {
-  return fmt::format("{} / {} / {} aov={} {} lights={}{} specular={}{}", k.type, to_string(k.expansion), to_string(k.phase), k.aovs,
+  return fmt::format("{}{} / {} / {} aov={} {} lights={}{} specular={}{}", k.type, k.near_eye ? " near" : "", to_string(k.expansion), to_string(k.phase), k.aovs,
                      k.orthographic ? "orthographic" : "perspective", k.light_count, k.local_lights ? " local" : "",
                      k.specular_model, k.per_particle_color ? " colors" : "");
 }
@@ -64,9 +64,10 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   if (pipelines_.size() >= most_pipelines) pipelines_.clear();
 
   const bool geometry = key.expansion == Expansion::Geometry;
-  const gpu::ShaderModule vertex = module(key.type + (geometry ? "/geometry.vert" : "/vertex.vert"));
-  const gpu::ShaderModule fragment = module(fmt::format("{}/opaque.frag/aov{}", key.type, key.aovs));
-  const gpu::ShaderModule geometry_module = geometry ? module(key.type + "/geometry.geom") : gpu::ShaderModule();
+  const std::string folder = key.type + (key.near_eye ? "/near" : "");
+  const gpu::ShaderModule vertex = module(folder + (geometry ? "/geometry.vert" : "/vertex.vert"));
+  const gpu::ShaderModule fragment = module(fmt::format("{}/opaque.frag/aov{}", folder, key.aovs));
+  const gpu::ShaderModule geometry_module = geometry ? module(folder + "/geometry.geom") : gpu::ShaderModule();
   const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(1, key.light_count),
                              gpu::spec(2, key.local_lights), gpu::spec(3, key.specular_model),
                              gpu::spec(4, key.per_particle_color), gpu::spec(5, key.show_depth_violation)};

@@ -32,20 +32,49 @@ bool ViewCuller::may_see(const glm::dvec3& center, const glm::dmat3& m, const gl
   return true;
 }
 
+namespace {
+
+// Distance from the eye to a box, in data space.
+double distance_to_box(const glm::dvec3& eye, const glm::dvec3& center, const glm::dvec3& half) {
+  return glm::length(glm::max(glm::abs(eye - center) - half, glm::dvec3(0)));
+}
+
+void place_near(const ChunkSet& set, std::uint64_t chunk, const glm::dmat3& linear, const glm::dvec3& origin, double scale,
+                std::vector<NearPayload>& out) {
+  for (std::uint64_t record = chunk * chunk_capacity; record < (chunk + 1) * chunk_capacity; ++record) {
+    const glm::vec4 stored = set.records[record * set.vec4s_per_record];
+    const glm::dvec3 center = origin + linear * glm::dvec3(stored);
+    const double radius = scale * double(stored.w), distance = glm::length(center);
+    const glm::vec3 rounded(center), rest(center - glm::dvec3(rounded));
+    out.push_back({glm::vec4(rounded, static_cast<float>(radius)),
+                   glm::vec4(static_cast<float>((distance - radius) * (distance + radius)), rest)});
+  }
+}
+
+} // namespace
+
 void place_chunks(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance,
-                  const View& view, const ViewCuller& culler, std::vector<PlacedChunk>& out) {
-  const glm::dmat3 linear = view.rotation * glm::dmat3(instance.world_from_data);
-  const glm::dvec3 translation = glm::dvec3(instance.world_from_data[3]) - view.eye;
+                  const View& view, const ViewCuller& culler, PlacedChunks& out) {
   const glm::dmat3 instance_linear(instance.world_from_data);
+  const glm::dmat3 linear = view.rotation * instance_linear;
+  const glm::dvec3 translation = glm::dvec3(instance.world_from_data[3]) - view.eye;
+  const glm::dvec3 eye = glm::inverse(instance_linear) * -translation; // data space
+  const double scale = similarity_scale(instance.world_from_data).value_or(1.0);
   for (std::uint64_t i = 0; i < count; ++i) {
     const Chunk& chunk = set.chunks[first + i];
     // Subtract the eye before anything is rotated or rounded.
     const glm::dvec3 origin = view.rotation * (instance_linear * chunk.origin + translation);
-    const glm::dvec3 lo(chunk.box_min), hi(chunk.box_max);
-    if (!culler.may_see(origin + linear * ((lo + hi) * 0.5), linear, (hi - lo) * 0.5)) continue;
+    const glm::dvec3 lo(chunk.box_min), hi(chunk.box_max), center = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
+    if (!culler.may_see(origin + linear * center, linear, half)) continue;
     const glm::vec3 o(origin);
-    out.push_back({glm::uvec4(std::bit_cast<std::uint32_t>(o.x), std::bit_cast<std::uint32_t>(o.y),
-                              std::bit_cast<std::uint32_t>(o.z), static_cast<std::uint32_t>(i))});
+    const PlacedChunk placed{glm::uvec4(std::bit_cast<std::uint32_t>(o.x), std::bit_cast<std::uint32_t>(o.y),
+                                        std::bit_cast<std::uint32_t>(o.z), static_cast<std::uint32_t>(i))};
+    if (distance_to_box(eye, chunk.origin + center, half) < 2.0 * glm::length(half)) {
+      out.near.push_back(placed);
+      place_near(set, first + i, linear, origin, scale, out.payloads);
+    } else {
+      out.far.push_back(placed);
+    }
   }
 }
 

@@ -31,8 +31,22 @@ private:
   int count_{};
 };
 
+// A particle near the eye, placed in double and rounded once; its payload in shaders with NEAR_EYE.
+struct NearPayload {
+  glm::vec4 center_radius{0}; // view space
+  glm::vec4 power_rest{0};    // x: |center|^2 - radius^2; yzw: what rounding took from the center
+};
+
+// What a view may see of some chunks. A chunk is near when the eye is closer to its box than twice the box's half
+// diagonal: there the rounding of chunk-relative placement (6e-8 of the chunk's extent) would show in the depth, so its
+// particles are placed one by one. Few chunks can be near, whatever the scene.
+struct PlacedChunks {
+  std::vector<PlacedChunk> far{}, near{};
+  std::vector<NearPayload> payloads{}; // 64 for each near chunk, in order
+};
+
 // Appends the chunks [first, first + count) of an instance that the view may see; indices count from `first`.
 void place_chunks(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance,
-                  const View& view, const ViewCuller& culler, std::vector<PlacedChunk>& out);
+                  const View& view, const ViewCuller& culler, PlacedChunks& out);
 
 } // namespace mote::passes

@@ -25,4 +25,19 @@ void shift_to_nearest(vec3 f, vec3 d, out vec3 nearest, out float parameter) {
   parameter = s - (e1 + e2);
 }
 
+// a.b as if formed in twice the precision and rounded once: products by Dekker's split, sums by Knuth's two-sum.
+float dot_exact(vec3 a, vec3 b) {
+  precise vec3 ah = hi12(a), bh = hi12(b);
+  precise vec3 al = a - ah, bl = b - bh;
+  precise vec3 p = a * b;
+  precise vec3 e = ((ah * bh - p) + ah * bl + al * bh) + al * bl;
+  precise float s1 = p.x + p.y;
+  precise float t1 = s1 - p.x;
+  precise float r1 = (p.x - (s1 - t1)) + (p.y - t1);
+  precise float s2 = s1 + p.z;
+  precise float t2 = s2 - s1;
+  precise float r2 = (s1 - (s2 - t2)) + (p.z - t2);
+  return s2 + (r1 + r2 + e.x + e.y + e.z);
+}
+
 #endif

@@ -4,11 +4,14 @@
 //
 //   const int record_vec4s, payload_vec4s
 //   struct Particle                                  view-space values of one particle
-//   Particle place(vec4 record[], Placement)         record (chunk-relative) to view space
+//   Particle place(vec4 record[], Placement)         record (chunk-relative) to view space; not with NEAR_EYE
 //   void pack(Particle, out vec4 payload[]), Particle unpack(vec4 payload[])
 //   bool drawable(Particle)                          false: radius 0 and the like, drawn as nothing
 //   Proxy proxy(Particle)                            bounds on the image
 //   bool intersect(Ray, Particle, out Interval)      where the ray is inside, and both normals
+//
+// With NEAR_EYE the particle was placed in double on the CPU (passes/particles/placement.hpp) and arrives as its
+// payload: for chunks so near to the eye that float32 placement would show.
 #ifndef MOTE_PARTICLE_GLSL
 #define MOTE_PARTICLE_GLSL
 
@@ -46,6 +49,7 @@ layout(push_constant) uniform BatchBlock {
   vec4 material;       // ambient, diffuse, specular, exponent
   uint id_base;        // id of row 0 of this instance
   uint first_placement;
+  uint first_near;     // NEAR_EYE: place of the draw's first particle among the near payloads
 } batch;
 
 layout(std430, set = 1, binding = 0) readonly buffer Records { vec4 records[]; };
@@ -53,6 +57,10 @@ layout(std430, set = 1, binding = 1) readonly buffer Rows { uint rows[]; };
 layout(std430, set = 1, binding = 2) readonly buffer Colors { uint colors[]; };
 // One per chunk that may be visible: xyz the chunk's origin in view space (float bits), w the chunk's index.
 layout(std430, set = 1, binding = 3) readonly buffer Placements { uvec4 placements[]; };
+
+#ifdef NEAR_EYE
+layout(std430, set = 1, binding = 4) readonly buffer NearPayloads { vec4 near_payloads[]; };
+#endif
 
 const uint chunk_capacity = 64u;
 
@@ -66,12 +74,19 @@ struct Loaded {
 Loaded load_particle(uint index) {
   uvec4 placed = placements[batch.first_placement + index / chunk_capacity];
   uint slot = placed.w * chunk_capacity + index % chunk_capacity;
+  Loaded loaded;
+#ifdef NEAR_EYE
+  vec4 payload[payload_vec4s];
+  uint first = (batch.first_near + index) * uint(payload_vec4s);
+  for (int i = 0; i < payload_vec4s; ++i) payload[i] = near_payloads[first + uint(i)];
+  loaded.particle = unpack(payload);
+#else
   vec4 record[record_vec4s];
   for (int i = 0; i < record_vec4s; ++i) record[i] = records[slot * uint(record_vec4s) + uint(i)];
   Placement at = Placement(mat3(batch.linear0_scale.xyz, batch.linear1.xyz, batch.linear2.xyz),
                            uintBitsToFloat(placed.xyz), batch.linear0_scale.w);
-  Loaded loaded;
   loaded.particle = place(record, at);
+#endif
   loaded.color = batch.color;
   if (per_particle_color) {
     vec4 own = unpack_color(colors[slot]);

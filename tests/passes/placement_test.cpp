@@ -26,6 +26,8 @@ View view_from(glm::dvec3 eye, glm::dvec3 target, Projection projection = Projec
 ChunkSet one_chunk(glm::dvec3 origin, float half) {
   ChunkSet set;
   set.chunks.push_back({.origin = origin, .box_min = glm::vec3(-half), .box_max = glm::vec3(half), .count = 1});
+  set.records.resize(chunk_capacity);
+  set.records[0] = {0, 0, 0, half};
   return set;
 }
 
@@ -34,9 +36,10 @@ glm::vec3 origin_of(const PlacedChunk& p) {
 }
 
 std::vector<PlacedChunk> place(const ChunkSet& set, const View& view, const glm::dmat4& m = glm::dmat4(1)) {
-  std::vector<PlacedChunk> out;
+  PlacedChunks out;
   place_chunks(set, 0, set.chunks.size(), {m}, view, ViewCuller(view), out);
-  return out;
+  out.far.insert(out.far.end(), out.near.begin(), out.near.end());
+  return out.far;
 }
 
 // A million units from the origin the origin of a chunk is as exact as at the origin.
@@ -80,9 +83,27 @@ TEST(Placement, CullingIsConservative) {
     }
     const bool kept = !place(set, view).empty();
     culled += !kept;
-    if (seen) ASSERT_TRUE(kept) << "case " << i;
+    if (seen) {
+      ASSERT_TRUE(kept) << "case " << i;
+    }
   }
   EXPECT_GT(culled, 2000); // and it does cull
+}
+
+// The eye a millionth of the radius above a sphere: its power keeps all digits, a float center alone would keep none.
+TEST(Placement, ParticlesNearTheEyeArePlacedInDouble) {
+  const View view = view_from({0, 0, 1000.001}, {0, 0, 0});
+  PlacedChunks out;
+  const ChunkSet set = one_chunk({0, 0, 0}, 1000.0f);
+  place_chunks(set, 0, 1, {}, view, ViewCuller(view), out);
+  ASSERT_EQ(out.near.size(), 1u);
+  ASSERT_EQ(out.payloads.size(), chunk_capacity);
+  const double exact = 1000.001 * 1000.001 - 1e6;
+  EXPECT_NEAR(out.payloads[0].power_rest.x, exact, 1e-6 * exact);
+  const View away = view_from({0, 0, 1e6}, {0, 0, 0});
+  place_chunks(set, 0, 1, {}, away, ViewCuller(away), out);
+  EXPECT_EQ(out.near.size(), 1u) << "from far away the chunk is not near";
+  EXPECT_EQ(out.far.size(), 1u);
 }
 
 TEST(Placement, NearAndFarCut) {

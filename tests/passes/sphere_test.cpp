@@ -53,7 +53,9 @@ TEST_F(Sphere, OneSphereHasItsExactOutlineAndDepth) {
   for (std::uint32_t y = 0; y < size.height; ++y)
     for (std::uint32_t x = 0; x < size.width; ++x) {
       const double d = std::hypot(x - 80.0, y - 80.0);
-      if (std::abs(d - radius) > 1e-3) ASSERT_EQ(p.id[p.at(x, y)], d < radius ? 0u : 0xFFFFFFFFu) << x << "," << y;
+      if (std::abs(d - radius) > 1e-3) {
+        ASSERT_EQ(p.id[p.at(x, y)], d < radius ? 0u : 0xFFFFFFFFu) << x << "," << y;
+      }
     }
 }
 
@@ -88,15 +90,14 @@ TEST_F(Sphere, EyeInsideTheCloud) {
   std::vector<glm::dvec4> spheres = cloud(2000, 10, 0.05, 1.0);
   spheres.emplace_back(0.1, 0.2, 0.3, 2.0); // holds the eye
   const Scene scene = scene_of(spheres);
-  // Surfaces much nearer than their own radius: the law of docs/accuracy.md, 1.2e-7 r / t.
-  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 1.0, .depth_factor = 6});
+  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 1.0});
 }
 
 TEST_F(Sphere, EyeInsideAtSeveralDepths) {
   for (const double e : {0.0, 0.5, 0.999, 1.001}) {
     const Scene scene = scene_of({{0, 0, 0, 1.0}, {3, 0, 0, 0.5}});
     check(scene, look(scene, {e, 0, 0}, {e - 1.0, 0.1, 0}, {160, 100}, 60),
-          {.least_hits = e < 1.0 ? 1.0 : 0.0, .depth_factor = std::max(2.0, 1.5 / std::abs(1.0 - e))});
+          {.least_hits = e < 1.0 ? 1.0 : 0.0});
   }
 }
 
@@ -135,7 +136,16 @@ TEST_F(Sphere, ExtremeScales) {
   std::vector<glm::dvec4> spheres = cloud(200, 5, 0.2, 1.0);
   spheres.emplace_back(0, -1e4, 0, 1e4);
   const Scene scene = scene_of(spheres);
-  check(scene, look(scene, {0, 8, 30}, {0, 0, 0}, {160, 100}), {.least_hits = 0.2, .depth_factor = 1e4 / 8});
+  // Most of the giant is seen at a grazing angle, where a ray's own rounding shows.
+  check(scene, look(scene, {0, 8, 30}, {0, 0, 0}, {160, 100}), {.least_hits = 0.2, .depth_factor = 3});
+}
+
+// FC-06: two meters above a sphere of the size of the earth. A grazing ray's own rounding (6e-8 rad) moves its hit by
+// 6e-8 / (angle of incidence), so the factor.
+TEST_F(Sphere, EyeJustAboveAGiant) {
+  const Scene scene = scene_of({{0, 0, 0, 6.4e6}});
+  check(scene, look(scene, {0, 6.4e6 + 2, 0}, {3, 6.4e6, 0.5}, {160, 100}, 60),
+        {.least_hits = 0.5, .most_ambiguous = 0.5, .depth_factor = 4});
 }
 
 // FC-01 in the picture: small field of view from far away.

@@ -3,20 +3,35 @@
 // sections 3.1 (intersection, form N) and 4.1 (bounds; for spheres Mara & McGuire, JCGT 2(2), 2013).
 
 const int record_vec4s = 1;
+#ifdef NEAR_EYE
+const int payload_vec4s = 2;
+#else
 const int payload_vec4s = 1;
+#endif
 
 struct Particle {
   vec3 center; // view space
   float radius;
+#ifdef NEAR_EYE
+  float power; // |center|^2 - radius^2, formed in double
+  vec3 rest;   // center - float32(center)
+#endif
 };
 
+#ifdef NEAR_EYE
+Particle unpack(vec4 payload[payload_vec4s]) { return Particle(payload[0].xyz, payload[0].w, payload[1].x, payload[1].yzw); }
+void pack(Particle p, out vec4 payload[payload_vec4s]) {
+  payload[0] = vec4(p.center, p.radius);
+  payload[1] = vec4(p.power, p.rest);
+}
+#else
 Particle place(vec4 record[record_vec4s], Placement at) {
   precise vec3 center = at.linear * record[0].xyz + at.origin;
   return Particle(center, record[0].w * at.scale);
 }
-
-void pack(Particle p, out vec4 payload[payload_vec4s]) { payload[0] = vec4(p.center, p.radius); }
 Particle unpack(vec4 payload[payload_vec4s]) { return Particle(payload[0].xyz, payload[0].w); }
+void pack(Particle p, out vec4 payload[payload_vec4s]) { payload[0] = vec4(p.center, p.radius); }
+#endif
 
 bool drawable(Particle p) { return p.radius > 0.0; }
 
@@ -70,8 +85,22 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
   float distance = length(l);
   float d2 = (p.radius - distance) * (p.radius + distance); // never r^2 - l^2: cancels at the limb
   float h = sqrt(max(d2, 0.0) / dot(ray.direction, ray.direction));
+#ifdef NEAR_EYE
+  // Form P: the product of the roots is the power of the eye, which middle - h would lose to cancellation where the
+  // surface is much nearer than the center; the other root is a sum of equal signs. Of the two discriminants the one
+  // with the smaller terms is the better.
+  float d_d = dot(ray.direction, ray.direction);
+  float b = dot_exact(p.center, ray.direction) + dot(p.rest, ray.direction);
+  bool by_power = b * b + d_d * abs(p.power) < d_d * p.radius * p.radius;
+  float root = by_power ? sqrt(max(b * b - d_d * p.power, 0.0)) : h * d_d;
+  float q = b + (b >= 0.0 ? root : -root);
+  float t1 = q / d_d, t2 = p.power / q;
+  hit.t_in = orthographic ? middle - h : min(t1, t2);
+  hit.t_out = orthographic ? middle + h : max(t1, t2);
+#else
   hit.t_in = middle - h;
   hit.t_out = middle + h;
+#endif
   hit.normal_in = (l - h * ray.direction) / p.radius;
   hit.normal_out = (l + h * ray.direction) / p.radius;
   return d2 >= 0.0;

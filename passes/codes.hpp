@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The diagnostics of the built-in passes, one line each. docs/errors.md lists them with all others.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace mote::passes {
+
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 4> pass_codes{{
+    {"G031", "error: a draw list names a particle type that does not exist"},
+    {"P001", "failed: a particle type cannot be drawn by the expansion that was asked for, or the device cannot"},
+    {"P002", "failed: a shader that is made at run time does not compile"},
+    {"P003", "failed: a scene has more lights than a frame can hold"},
+}};
+
+} // namespace mote::passes
