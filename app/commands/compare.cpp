@@ -79,15 +79,14 @@ CompareInput from_npy(const std::string& path) {
   return out;
 }
 
+void check_picture(const std::string& path) {
+  if (path == "-" || file_kind(path) == FileKind::Unknown)
+    fail(Exit::Usage, code::output_ending, {"command line"}, fmt::format("'{}' is no picture", path), {"Endings: .png, .exr, .npy"});
+}
+
 CompareInput read_picture(const std::string& path) {
-  CompareInput out;
-  switch (path == "-" ? FileKind::Unknown : file_kind(path)) {
-  case FileKind::Png: out = from_png(path); break;
-  case FileKind::Exr: out = from_exr(path); break;
-  case FileKind::Npy: out = from_npy(path); break;
-  case FileKind::Unknown:
-    fail(Exit::Usage, code::output_ending, {path}, fmt::format("'{}' is no picture", path), {"Endings: .png, .exr, .npy"});
-  }
+  const FileKind kind = file_kind(path);
+  CompareInput out = kind == FileKind::Png ? from_png(path) : kind == FileKind::Exr ? from_exr(path) : from_npy(path);
   out.name = path;
   return out;
 }
@@ -132,6 +131,7 @@ Exit run(const CompareArguments& a) {
          {"mote compare A B, or mote compare A --reference SCENE"});
   if (!a.difference.empty() && file_kind(a.difference) != FileKind::Png)
     fail(Exit::Usage, code::output_ending, {"--difference"}, fmt::format("'{}' is no .png", a.difference));
+  for (const std::string& path : a.pictures) check_picture(path);
   Diagnostics problems;
   const compare::Limits limits = compare::parse_limits(a.limits, problems);
   if (problems.has_errors()) {

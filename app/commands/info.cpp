@@ -2,6 +2,7 @@
 // mote info: what is in a particle file (or in each data set of a scene): particles, frames, box, columns.
 #include "app/commands/command.hpp"
 #include "core/data/source.hpp"
+#include "core/scene/assembly.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -48,13 +49,24 @@ struct FileInfo {
   std::string name{}, format{};
   std::uint64_t frames{1};
   data::Frame frame{};
+  std::uint64_t instances{1}; // copies of the unit in the assembly that is drawn
 };
 
-FileInfo read_file(const std::string& name, Diagnostics& warnings) {
+// The most copies that any part of the assembly has: 60 for a capsid of 60 units.
+std::uint64_t count_instances(const data::Frame& frame, const std::optional<Located<std::string>>& assembly,
+                              const std::string& name, Diagnostics& diagnostics) {
+  std::uint64_t most = 1;
+  for (const Copies& copies : copies_of(frame, assembly, name, diagnostics)) most = std::max<std::uint64_t>(most, copies.transforms.size());
+  return most;
+}
+
+FileInfo read_file(const DataDesc& data, Diagnostics& diagnostics) {
+  const std::string name = data.file.value.string();
   const std::unique_ptr<data::Source> source = data::open(name);
   FileInfo info{name, std::string(source->format()), 1, source->read(0)};
   info.frames = source->frame_count();
-  warnings.append(source->warnings());
+  info.instances = count_instances(info.frame, data.assembly, name, diagnostics);
+  diagnostics.append(source->warnings());
   return info;
 }
 
@@ -81,7 +93,7 @@ Json bounds_json(const data::Frame& frame) {
 Json json_of(const FileInfo& info) {
   Json json;
   json["count"] = info.frame.count;
-  json["instances"] = 1;
+  json["instances"] = info.instances;
   json["frames"] = info.frames;
   json["bounds"] = bounds_json(info.frame);
   json["attributes"] = Json::array();
@@ -101,6 +113,11 @@ Json json_of(const FileInfo& info) {
 void print_text(const FileInfo& info) {
   const data::Frame& frame = info.frame;
   fmt::print("{}: {}, {} particles, {} {}\n", info.name, info.format, frame.count, info.frames, info.frames == 1 ? "frame" : "frames");
+  if (!frame.assemblies.empty()) {
+    std::vector<std::string> names;
+    for (const data::Assembly& assembly : frame.assemblies) names.push_back(assembly.name);
+    fmt::print("  assemblies {}; {} copies in the one that is drawn\n", list_of(names), info.instances);
+  }
   if (frame.time) fmt::print("  time {}\n", *frame.time);
   if (frame.step) fmt::print("  step {}\n", *frame.step);
   if (frame.box) {
@@ -127,7 +144,7 @@ std::vector<FileInfo> gather(const std::vector<std::string>& words, Diagnostics&
   const SceneDesc desc = describe(words, {}, diagnostics);
   if (diagnostics.has_errors()) return files;
   for (const DataDesc& data : desc.data)
-    files.push_back(data.generated ? generated_info(desc.name, *data.generated) : read_file(data.file.value.string(), diagnostics));
+    files.push_back(data.generated ? generated_info(desc.name, *data.generated) : read_file(data, diagnostics));
   return files;
 }
 

@@ -66,7 +66,7 @@ Outputs parse_outputs(const RenderArguments& a) {
 JobRequest request_of(const RenderArguments& a, const Outputs& outputs) {
   JobRequest request = job_request(a.scene);
   request.transparent = a.transparent;
-  request.linear = file_kind(outputs.picture) == FileKind::Exr;
+  request.linear = request.every_aov = file_kind(outputs.picture) == FileKind::Exr;
   request.deep = a.bits == 16 && file_kind(outputs.picture) == FileKind::Png;
   for (const auto& [aov, file] : outputs.aovs)
     if (std::find(request.aovs.begin(), request.aovs.end(), aov) == request.aovs.end()) request.aovs.push_back(aov);
@@ -154,7 +154,7 @@ void add_render(CLI::App& app, Exit& exit) {
   auto a = std::make_shared<RenderArguments>();
   add_scene_arguments(*command, a->scene);
   add_device_arguments(*command, a->device);
-  command->add_option("-o,--output", a->output, "picture: .png, .exr (scene-linear, AOVs as channels), or - for a PNG on standard output")
+  command->add_option("-o,--output", a->output, "picture: .png, .exr (scene-linear, with depth, id and normal), or - for a PNG on standard output")
       ->type_name("FILE");
   command->add_option("--aov", a->aovs, "depth, id or normal at the pixel centers, into a .npy")->allow_extra_args(false)->type_name("NAME=FILE");
   command->add_option("--dump", a->dumps, "any source of the graph, into a .npy or .exr")->allow_extra_args(false)->type_name("PASS.SLOT=FILE");

@@ -127,13 +127,17 @@ std::optional<ReadyGraph> ready_graph(const GraphRequest& request, Diagnostics& 
     ready.linear = linear_source(graph);
     options.roots.push_back({ready.linear, {"--output"}});
   }
-  for (Aov aov : request.aovs) {
+  for (Aov aov : {Aov::Depth, Aov::Id, Aov::Normal}) {
+    const bool asked = std::find(request.aovs.begin(), request.aovs.end(), aov) != request.aovs.end();
+    if (!asked && !request.every_aov) continue;
     const std::string name(aov_names[static_cast<std::size_t>(aov)]);
     const std::string source = source_of_slot(graph, "aov_" + name);
-    if (source.empty())
+    if (!source.empty()) {
+      options.roots.push_back({source, {"--aov"}});
+      ready.aovs[aov] = source;
+    } else if (asked) {
       found.error(code::aov_not_made, {"--aov"}, fmt::format("no pass of the graph '{}' makes the AOV '{}'", graph.name.text, name));
-    else options.roots.push_back({source, {"--aov"}});
-    ready.aovs[aov] = source;
+    }
   }
   rg::CompileResult result = rg::compile(graph, registry(), options, found);
   for (const Diagnostic& d : result.diagnostics.list())

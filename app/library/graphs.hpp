@@ -27,6 +27,7 @@ struct GraphRequest {
   std::filesystem::path folder{};           // that a relative path is relative to
   std::vector<std::string> settings{};      // "pass.parameter=value"
   std::vector<Aov> aovs{};
+  bool every_aov{};                         // whatever AOVs the graph makes
   std::vector<rg::LocatedString> dumps{};   // further sources
   bool linear{};                            // the picture before the display transform, too
   bool deep{};                              // the output in float instead of 8 bits

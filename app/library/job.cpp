@@ -25,7 +25,7 @@ void warn_of_limits(const SceneDesc& desc, Diagnostics& diagnostics) {
 }
 
 void check_ids(const JobRequest& request, const Scene& scene, Diagnostics& diagnostics) {
-  const bool wanted = std::find(request.aovs.begin(), request.aovs.end(), Aov::Id) != request.aovs.end();
+  const bool wanted = request.every_aov || std::find(request.aovs.begin(), request.aovs.end(), Aov::Id) != request.aovs.end();
   if (wanted && scene.particle_count() > 0xFFFFFFFEu)
     diagnostics.error(code::too_many_ids, {"--aov"},
                       fmt::format("the scene has {} particles; the id AOV counts 4294967294", scene.particle_count()));
@@ -53,6 +53,7 @@ Job load_job(const JobRequest& request, Diagnostics& diagnostics) {
   job.desc = describe_job(request, diagnostics, job.graph);
   job.size = request.size;
   job.graph.aovs = request.aovs;
+  job.graph.every_aov = request.every_aov;
   job.graph.dumps = request.dumps;
   job.graph.linear = request.linear;
   job.graph.deep = request.deep;

@@ -16,6 +16,7 @@ struct JobRequest {
   Size2d size{1280, 720};
   bool transparent{};                    // background of alpha 0
   std::vector<Aov> aovs{};
+  bool every_aov{};                      // as in GraphRequest
   std::vector<rg::LocatedString> dumps{};
   bool linear{}, deep{};                 // as in GraphRequest
 };

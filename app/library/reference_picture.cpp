@@ -10,7 +10,7 @@
 namespace mote::app {
 
 DrawnPicture draw_reference(const Job& job, const ColorConfig& config, const DisplayOptions& display) {
-  auto wanted = [&](Aov aov) { return std::find(job.graph.aovs.begin(), job.graph.aovs.end(), aov) != job.graph.aovs.end(); };
+  auto wanted = [&](Aov aov) { return job.graph.every_aov || std::find(job.graph.aovs.begin(), job.graph.aovs.end(), aov) != job.graph.aovs.end(); };
   ReferenceOptions options;
   options.ids = wanted(Aov::Id);
   options.normals = wanted(Aov::Normal);

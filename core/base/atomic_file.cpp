@@ -3,14 +3,14 @@
 
 #include "core/base/diagnostic.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <utility>
 
 namespace mote {
@@ -51,10 +51,13 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   const bool in_place = exists && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
   if (!in_place) temporary_ = fmt::format("{}.tmp.{}", target_, ::getpid());
   int error = 0;
-  if (exists && S_ISDIR(info.st_mode)) error = EISDIR;
-  else if (path.empty()) error = ENOENT;
+  if (exists && S_ISDIR(info.st_mode))
+    error = EISDIR;
+  else if (path.empty())
+    error = ENOENT;
   else {
-    fd_ = ::open(in_place ? path.c_str() : temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    fd_ =
+        ::open(in_place ? path.c_str() : temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (fd_ < 0) error = errno;
   }
   if (error != 0)
@@ -72,8 +75,10 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::failed_to_write(int error) {
   fail(Exit::Failed, "I002", {path_},
-       fmt::format("'{}' cannot be written: {}", path_ == "-" ? "standard output" : path_, std::strerror(error)),
-       {error == ENOSPC && !temporary_.empty() ? fmt::format("the disk of '{}' is full", folder_of(target_)) : ""});
+       fmt::format("'{}' cannot be written: {}", path_ == "-" ? "standard output" : path_,
+                   std::strerror(error)),
+       {error == ENOSPC && !temporary_.empty() ? fmt::format("the disk of '{}' is full", folder_of(target_))
+                                               : ""});
 }
 
 void AtomicFile::flush() {

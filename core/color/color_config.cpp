@@ -6,6 +6,7 @@
 #include "core/color/srgb.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -13,15 +14,14 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
-#include <sys/stat.h>
 
 namespace mote {
 
 namespace {
 // Names under which configs in use carry Linear Rec.709 (ACES CG and studio configs, Blender, older ACES).
 constexpr std::array<const char*, 8> rec709_names{
-    "Linear Rec.709",  "Linear Rec.709 (sRGB)",  "lin_rec709",  "lin_rec709_scene",
-    "Linear BT.709",   "Utility - Linear - sRGB", "lin_srgb",    "Linear sRGB"};
+    "Linear Rec.709", "Linear Rec.709 (sRGB)",   "lin_rec709", "lin_rec709_scene",
+    "Linear BT.709",  "Utility - Linear - sRGB", "lin_srgb",   "Linear sRGB"};
 
 void find_working_space(ColorConfig::Inner& inner) {
   for (const char* name : rec709_names)
@@ -44,7 +44,9 @@ void finish(ColorConfig::Inner& inner) {
   inner.messages = take_ocio_log();
   try {
     inner.config->validate();
-  } catch (const OCIO::Exception& e) { inner.messages.push_back(one_line(e.what())); }
+  } catch (const OCIO::Exception& e) {
+    inner.messages.push_back(one_line(e.what()));
+  }
   find_working_space(inner);
 }
 
@@ -62,7 +64,8 @@ void check_readable(const std::string& path, const std::string& named_by) {
          fmt::format("the color config '{}'{} cannot be read: {}", path, named_by, std::strerror(problem)));
 }
 
-std::vector<std::string> described(std::span<const std::string> exist, const std::string& word, const char* what) {
+std::vector<std::string> described(std::span<const std::string> exist, const std::string& word,
+                                   const char* what) {
   return {did_you_mean(word, exist), fmt::format("{}: {}", what, list_of(exist))};
 }
 
@@ -92,9 +95,8 @@ ColorConfig ColorConfig::load(const std::string& path) {
   auto inner = std::make_shared<Inner>();
   inner->origin = file;
   take_ocio_log();
-  inner->config = with_ocio("C002", {file}, "OpenColorIO does not understand this color config", [&] {
-    return OCIO::Config::CreateFromFile(file.c_str());
-  });
+  inner->config = with_ocio("C002", {file}, "OpenColorIO does not understand this color config",
+                            [&] { return OCIO::Config::CreateFromFile(file.c_str()); });
   finish(*inner);
   return ColorConfig(std::move(inner));
 }
@@ -125,7 +127,8 @@ std::vector<std::string> ColorConfig::views(const std::string& display) const {
 std::vector<std::string> ColorConfig::color_spaces() const {
   std::vector<std::string> names;
   const OCIO::ConstConfigRcPtr& config = inner_->config;
-  for (int i = 0; i < config->getNumColorSpaces(OCIO::SEARCH_REFERENCE_SPACE_SCENE, OCIO::COLORSPACE_ACTIVE); ++i)
+  for (int i = 0; i < config->getNumColorSpaces(OCIO::SEARCH_REFERENCE_SPACE_SCENE, OCIO::COLORSPACE_ACTIVE);
+       ++i)
     names.emplace_back(
         config->getColorSpaceNameByIndex(OCIO::SEARCH_REFERENCE_SPACE_SCENE, OCIO::COLORSPACE_ACTIVE, i));
   return names;
@@ -139,12 +142,14 @@ void ColorConfig::check_display(const std::string& display, const SourceLoc& loc
          described(exist, display, "displays"));
 }
 
-void ColorConfig::check_view(const std::string& display, const std::string& view, const SourceLoc& loc) const {
+void ColorConfig::check_view(const std::string& display, const std::string& view,
+                             const SourceLoc& loc) const {
   check_display(display, loc);
   const std::vector<std::string> exist = views(display);
   if (!contains(exist, view))
     fail(Exit::BadInput, "C004", loc,
-         fmt::format("the display '{}' has no view transform '{}' in the color config '{}'", display, view, origin()),
+         fmt::format("the display '{}' has no view transform '{}' in the color config '{}'", display, view,
+                     origin()),
          described(exist, view, "view transforms"));
 }
 
@@ -169,7 +174,8 @@ void ColorConfig::to_working(const std::string& space, std::span<float> rgba, co
 std::array<double, 3> ColorConfig::to_working(const std::string& space, const std::array<double, 3>& rgb,
                                               const SourceLoc& loc) const {
   if (space == "sRGB" && inner_->working_is_rec709) return srgb_decode(rgb);
-  std::array<float, 4> pixel{static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]), 1.0f};
+  std::array<float, 4> pixel{static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
+                             static_cast<float>(rgb[2]), 1.0f};
   to_working(space, std::span<float>(pixel), loc);
   return {pixel[0], pixel[1], pixel[2]};
 }

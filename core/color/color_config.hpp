@@ -31,7 +31,7 @@ public:
   [[nodiscard]] const std::string& working_space() const;
   [[nodiscard]] const std::vector<std::string>& messages() const; // one line each; often none
 
-  [[nodiscard]] std::vector<std::string> displays() const; // the default first
+  [[nodiscard]] std::vector<std::string> displays() const;                        // the default first
   [[nodiscard]] std::vector<std::string> views(const std::string& display) const; // as the config orders them
   [[nodiscard]] std::vector<std::string> color_spaces() const;
   [[nodiscard]] std::string default_display() const;

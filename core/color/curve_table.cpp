@@ -27,7 +27,8 @@ CurveTable::CurveTable(const std::function<void(std::span<float>)>& evaluate) {
   for (std::uint32_t channel = 0; channel < 3; ++channel)
     for (std::uint32_t cell = 0; cell < cells; ++cell) {
       const std::uint32_t at = cell < cells_per_sign ? cell : nodes_per_sign + cell - cells_per_sign;
-      const float value = values[std::size_t{at} * 3 + channel], next = values[std::size_t{at + 1} * 3 + channel];
+      const float value = values[std::size_t{at} * 3 + channel],
+                  next = values[std::size_t{at + 1} * 3 + channel];
       float* entry = &data_[(std::size_t{channel} * cells + cell) * 2];
       entry[0] = value;
       entry[1] = next - value;

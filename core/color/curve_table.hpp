@@ -16,10 +16,10 @@ namespace mote {
 class CurveTable {
 public:
   static constexpr std::uint32_t cells_per_sign = 2048, cells = 2 * cells_per_sign;
-  static constexpr std::uint32_t shift = 17;         // a cell is 2^17 consecutive bit patterns
-  static constexpr std::uint32_t first_cell = 7168;  // bits(2^-15) >> shift
-  static constexpr float bias = 0x1p-15f;            // added to |x|: the cells next to zero are linear in x
-  static constexpr float largest = 131071.9921875f;  // the float below 2^17; |x| + bias is cut there
+  static constexpr std::uint32_t shift = 17;        // a cell is 2^17 consecutive bit patterns
+  static constexpr std::uint32_t first_cell = 7168; // bits(2^-15) >> shift
+  static constexpr float bias = 0x1p-15f;           // added to |x|: the cells next to zero are linear in x
+  static constexpr float largest = 131071.9921875f; // the float below 2^17; |x| + bias is cut there
 
   // `evaluate` maps n RGB triples in place (3 n floats), each channel by itself.
   explicit CurveTable(const std::function<void(std::span<float>)>& evaluate);

@@ -46,7 +46,8 @@ std::vector<float> to_rgba(const float* values, std::size_t texels, std::size_t 
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
 }
 
 void Writer::add_ocio_luts(const OCIO::GpuShaderDesc& desc) {
@@ -64,7 +65,10 @@ void Writer::add_ocio_luts(const OCIO::GpuShaderDesc& desc) {
 #endif
     desc.getTextureValues(i, values);
     const std::size_t channels = channel == OCIO::GpuShaderDesc::TEXTURE_RED_CHANNEL ? 1 : 3;
-    add_lut({.name = sampler, .linear = interpolation != OCIO::INTERP_NEAREST, .width = width, .height = height,
+    add_lut({.name = sampler,
+             .linear = interpolation != OCIO::INTERP_NEAREST,
+             .width = width,
+             .height = height,
              .data = to_rgba(values, std::size_t{width} * height, channels)});
   }
   for (unsigned i = 0; i < desc.getNum3DTextures(); ++i) {
@@ -73,7 +77,12 @@ void Writer::add_ocio_luts(const OCIO::GpuShaderDesc& desc) {
     desc.get3DTextureValues(i, values);
     // a tetrahedral lookup fetches the corners and weighs them itself
     const bool linear = interpolation != OCIO::INTERP_NEAREST && interpolation != OCIO::INTERP_TETRAHEDRAL;
-    add_lut({.name = sampler, .volume = true, .linear = linear, .width = edge, .height = edge, .depth = edge,
+    add_lut({.name = sampler,
+             .volume = true,
+             .linear = linear,
+             .width = edge,
+             .height = edge,
+             .depth = edge,
              .data = to_rgba(values, std::size_t{edge} * edge * edge, 3)});
   }
 }
@@ -96,9 +105,11 @@ void Writer::add_arithmetic(const DisplayPiece& piece, std::size_t index) {
       continue;
     }
     if (line.rfind("uniform sampler", 0) != 0)
-      fail(Exit::BadInput, "C007", loc, fmt::format("the view transform needs a dynamic property: '{}'", line));
+      fail(Exit::BadInput, "C007", loc,
+           fmt::format("the view transform needs a dynamic property: '{}'", line));
     const std::size_t space = line.rfind(' ');
-    if (line.rfind("uniform sampler1D", 0) == 0) one_dimensional.push_back(line.substr(space + 1, line.find(';') - space - 1));
+    if (line.rfind("uniform sampler1D", 0) == 0)
+      one_dimensional.push_back(line.substr(space + 1, line.find(';') - space - 1));
   }
   for (const std::string& sampler : one_dimensional) {
     out.text += fmt::format("vec4 {0}_at(float x) {{ return texture({0}, vec2(x, 0.5)); }}\n", sampler);
@@ -110,9 +121,13 @@ void Writer::add_arithmetic(const DisplayPiece& piece, std::size_t index) {
 
 void Writer::add_table(const CurveTable& table, std::size_t index) {
   const std::string name = fmt::format("{}_table{}", options.function, index);
-  add_lut({.name = name + "_cells", .format = DisplayLut::Format::RG32Float, .width = CurveTable::cells,
-           .height = table.rows(), .data = table.data()});
-  out.text += fmt::format(R"(
+  add_lut({.name = name + "_cells",
+           .format = DisplayLut::Format::RG32Float,
+           .width = CurveTable::cells,
+           .height = table.rows(),
+           .data = table.data()});
+  out.text +=
+      fmt::format(R"(
 float {0}(float x, int row)
 {{
   uint bits = floatBitsToUint(min(abs(x) + {1:.9e}, {2:.9e}));
@@ -121,8 +136,8 @@ float {0}(float x, int row)
   return entry.x + entry.y * (float(bits & {6}u) * {7:.9e});
 }}
 )",
-                          name, CurveTable::bias, CurveTable::largest, CurveTable::shift, CurveTable::first_cell,
-                          CurveTable::cells_per_sign, (1u << CurveTable::shift) - 1u, 0x1p-17);
+                  name, CurveTable::bias, CurveTable::largest, CurveTable::shift, CurveTable::first_cell,
+                  CurveTable::cells_per_sign, (1u << CurveTable::shift) - 1u, 0x1p-17);
   const int step = table.rows() == 1 ? 0 : 1;
   body += fmt::format("  c = vec3({0}(c.r, 0), {0}(c.g, {1}), {0}(c.b, {2}));\n", name, step, 2 * step);
 }
@@ -158,16 +173,20 @@ std::uint64_t fnv1a(std::uint64_t hash, const void* data, std::size_t size) {
 
 DisplayGlsl DisplayTransform::glsl(const GlslOptions& options) const {
   Writer writer{options, inner_->loc};
-  with_ocio("C007", inner_->loc, fmt::format("OpenColorIO cannot write the view transform '{}' as GLSL", view()), [&] {
-    for (std::size_t i = 0; i < inner_->pieces.size(); ++i) {
-      const DisplayPiece& piece = inner_->pieces[i];
-      if (piece.table) writer.add_table(*piece.table, i);
-      else writer.add_arithmetic(piece, i);
-    }
-  });
+  with_ocio("C007", inner_->loc,
+            fmt::format("OpenColorIO cannot write the view transform '{}' as GLSL", view()), [&] {
+              for (std::size_t i = 0; i < inner_->pieces.size(); ++i) {
+                const DisplayPiece& piece = inner_->pieces[i];
+                if (piece.table)
+                  writer.add_table(*piece.table, i);
+                else
+                  writer.add_arithmetic(piece, i);
+              }
+            });
   writer.add_functions(gain());
   std::uint64_t hash = fnv1a(0xcbf29ce484222325ull, writer.out.text.data(), writer.out.text.size());
-  for (const DisplayLut& lut : writer.out.luts) hash = fnv1a(hash, lut.data.data(), lut.data.size() * sizeof(float));
+  for (const DisplayLut& lut : writer.out.luts)
+    hash = fnv1a(hash, lut.data.data(), lut.data.size() * sizeof(float));
   writer.out.cache_id = fmt::format("{:016x}", hash);
   return std::move(writer.out);
 }

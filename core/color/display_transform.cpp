@@ -74,8 +74,10 @@ std::vector<Run> find_runs(const OCIO::GroupTransform& group) {
   std::vector<Run> runs;
   auto arithmetic = [&](int first, int last) {
     if (first == last) return;
-    if (!runs.empty() && !runs.back().table) runs.back().last = last;
-    else runs.push_back({first, last, false});
+    if (!runs.empty() && !runs.back().table)
+      runs.back().last = last;
+    else
+      runs.push_back({first, last, false});
   };
   const int count = group.getNumTransforms();
   for (int i = 0; i < count;) {
@@ -100,7 +102,8 @@ std::vector<Run> find_runs(const OCIO::GroupTransform& group) {
 
 DisplayPiece make_piece(const OCIO::Config& config, const OCIO::GroupTransform& all, const Run& part) {
   const OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
-  for (int i = part.first; i < part.last; ++i) group->appendTransform(all.getTransform(i)->createEditableCopy());
+  for (int i = part.first; i < part.last; ++i)
+    group->appendTransform(all.getTransform(i)->createEditableCopy());
   DisplayPiece piece;
   piece.processor = config.getProcessor(group);
   piece.cpu = piece.processor->getDefaultCPUProcessor();
@@ -171,8 +174,8 @@ DisplayTransform make_display_transform(const ColorConfig& config, const Display
   if (!std::isfinite(request.exposure) || inner->gain > 1e30 || inner->gain < 1e-30)
     fail(Exit::BadInput, "C009", request.loc,
          fmt::format("the exposure '{}' is not a number of stops between -99 and 99", request.exposure));
-  const std::string what =
-      fmt::format("OpenColorIO cannot build the view transform '{}' of the display '{}'", inner->view, inner->display);
+  const std::string what = fmt::format("OpenColorIO cannot build the view transform '{}' of the display '{}'",
+                                       inner->view, inner->display);
   with_ocio("C007", request.loc, what, [&] {
     const OCIO::ConstConfigRcPtr& ocio = config.inner().config;
     const auto transform = OCIO::DisplayViewTransform::Create();
@@ -204,8 +207,8 @@ bool DisplayTransform::baked() const {
 
 std::string DisplayTransform::describe() const {
   if (!baked()) return fmt::format("{} / {}, OpenColorIO's arithmetic", display(), view());
-  return fmt::format("{} / {}, baked: at most {:.3f} of 1/255 from OpenColorIO's arithmetic", display(), view(),
-                     baked_error());
+  return fmt::format("{} / {}, baked: at most {:.3f} of 1/255 from OpenColorIO's arithmetic", display(),
+                     view(), baked_error());
 }
 
 void DisplayTransform::apply(std::span<float> rgba) const {
@@ -215,7 +218,8 @@ void DisplayTransform::apply(std::span<float> rgba) const {
 
 void DisplayTransform::apply_baked(std::span<float> rgba) const {
   if (rgba.empty()) return;
-  guarded(rgba, static_cast<float>(inner_->gain), [&](std::span<float> all) { run_pieces(inner_->pieces, all); });
+  guarded(rgba, static_cast<float>(inner_->gain),
+          [&](std::span<float> all) { run_pieces(inner_->pieces, all); });
 }
 
 } // namespace mote

@@ -30,25 +30,25 @@ struct DisplayRequest {
   std::string view{};         // empty: the display's default
   double exposure{};          // stops, finite
   bool exact{};
-  SourceLoc loc{};            // where the names were written
+  SourceLoc loc{}; // where the names were written
 };
 
 // A table that the GLSL function samples. Upload as it is; clamp to edge on all axes.
 struct DisplayLut {
   enum class Format : std::uint8_t { RG32Float, RGBA32Float };
-  std::string name{};                          // of the sampler in the text
+  std::string name{}; // of the sampler in the text
   Format format{Format::RGBA32Float};
-  bool volume{};                               // 3-D texture, else 2-D
-  bool linear{};                               // filter; else nearest
-  std::uint32_t width{}, height{1}, depth{1};  // texels
+  bool volume{};                              // 3-D texture, else 2-D
+  bool linear{};                              // filter; else nearest
+  std::uint32_t width{}, height{1}, depth{1}; // texels
   std::uint32_t texture_binding{}, sampler_binding{};
-  std::vector<float> data{};                   // x fastest, then y, then z
+  std::vector<float> data{}; // x fastest, then y, then z
 };
 
 struct GlslOptions {
   std::string function{"mote_display"}; // also the prefix of every other global name
   std::uint32_t set{};
-  std::uint32_t first_binding{};        // lut k takes first_binding + 2 k (texture) and + 2 k + 1 (sampler)
+  std::uint32_t first_binding{}; // lut k takes first_binding + 2 k (texture) and + 2 k + 1 (sampler)
 };
 
 struct DisplayGlsl {

@@ -27,9 +27,9 @@ struct ColorConfig::Inner {
 template <class F>
 auto with_ocio(std::string_view code, const SourceLoc& loc, const std::string& what, F&& f);
 
-void catch_ocio_log();                        // once per process; idempotent
-std::vector<std::string> take_ocio_log();     // the lines since the last call on this thread
-std::string one_line(std::string_view text);  // OCIO's texts may have line ends
+void catch_ocio_log();                       // once per process; idempotent
+std::vector<std::string> take_ocio_log();    // the lines since the last call on this thread
+std::string one_line(std::string_view text); // OCIO's texts may have line ends
 
 template <class F>
 auto with_ocio(std::string_view code, const SourceLoc& loc, const std::string& what, F&& f) {

@@ -16,10 +16,11 @@ namespace mote {
 namespace {
 // CSS Color Module Level 4, "named colors": the 16 basic ones and six in daily use.
 constexpr std::array<std::pair<std::string_view, std::uint32_t>, 22> names{{
-    {"black", 0x000000},   {"silver", 0xc0c0c0}, {"gray", 0x808080},   {"grey", 0x808080},  {"white", 0xffffff},
-    {"maroon", 0x800000},  {"red", 0xff0000},    {"purple", 0x800080}, {"fuchsia", 0xff00ff}, {"green", 0x008000},
-    {"lime", 0x00ff00},    {"olive", 0x808000},  {"yellow", 0xffff00}, {"navy", 0x000080},  {"blue", 0x0000ff},
-    {"teal", 0x008080},    {"aqua", 0x00ffff},   {"cyan", 0x00ffff},   {"magenta", 0xff00ff}, {"orange", 0xffa500},
+    {"black", 0x000000},   {"silver", 0xc0c0c0}, {"gray", 0x808080},    {"grey", 0x808080},
+    {"white", 0xffffff},   {"maroon", 0x800000}, {"red", 0xff0000},     {"purple", 0x800080},
+    {"fuchsia", 0xff00ff}, {"green", 0x008000},  {"lime", 0x00ff00},    {"olive", 0x808000},
+    {"yellow", 0xffff00},  {"navy", 0x000080},   {"blue", 0x0000ff},    {"teal", 0x008080},
+    {"aqua", 0x00ffff},    {"cyan", 0x00ffff},   {"magenta", 0xff00ff}, {"orange", 0xffa500},
     {"pink", 0xffc0cb},    {"brown", 0xa52a2a},
 }};
 
@@ -64,7 +65,8 @@ ParsedColor parse_color(std::string_view text, const SourceLoc& loc) {
   }
   exist.emplace_back("transparent");
   fail(Exit::BadInput, "C008", loc, fmt::format("'{}' is not a color", text),
-       {did_you_mean(text, exist), "a color is \"#rgb\", \"#rrggbb\", \"#rrggbbaa\", [r, g, b] or one of: " + list_of(exist)});
+       {did_you_mean(text, exist),
+        "a color is \"#rgb\", \"#rrggbb\", \"#rrggbbaa\", [r, g, b] or one of: " + list_of(exist)});
 }
 
 ParsedColor parse_color(std::span<const double> numbers, const SourceLoc& loc) {
@@ -73,7 +75,8 @@ ParsedColor parse_color(std::span<const double> numbers, const SourceLoc& loc) {
          fmt::format("a color has 3 or 4 numbers, [r, g, b] or [r, g, b, a], not {}", numbers.size()));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const double v = numbers[i];
-    if (!std::isfinite(v)) fail(Exit::BadInput, "C009", loc, fmt::format("the color component '{}' is not a finite number", v));
+    if (!std::isfinite(v))
+      fail(Exit::BadInput, "C009", loc, fmt::format("the color component '{}' is not a finite number", v));
     if (v < 0 || (i == 3 && v > 1))
       fail(Exit::BadInput, "C009", loc,
            fmt::format("the {} '{}' of a color is outside {}", i == 3 ? "alpha" : "component", v,

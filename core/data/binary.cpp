@@ -11,7 +11,8 @@ void ByteReader::refuse(std::string_view code, std::string text, std::vector<std
   refuse_at(at_, code, std::move(text), std::move(hints));
 }
 
-void ByteReader::refuse_at(std::uint64_t at, std::string_view code, std::string text, std::vector<std::string> hints) const {
+void ByteReader::refuse_at(std::uint64_t at, std::string_view code, std::string text,
+                           std::vector<std::string> hints) const {
   fail(Exit::BadInput, code, byte_place(*bytes_, at), std::move(text), std::move(hints));
 }
 
@@ -20,12 +21,16 @@ void ByteReader::ends(std::uint64_t count, std::string_view what) const {
                                        count == 1 ? "byte is" : "bytes are", left()));
 }
 
-BinarySource::BinarySource(std::shared_ptr<Bytes> bytes) : bytes_(std::move(bytes)) { warnings_.append(bytes_->warnings()); }
+BinarySource::BinarySource(std::shared_ptr<Bytes> bytes) : bytes_(std::move(bytes)) {
+  warnings_.append(bytes_->warnings());
+}
 
 void BinarySource::no_such_frame(std::uint64_t frame, std::uint64_t count) const {
-  if (count == 0) fail(Exit::BadInput, code::no_frame, {bytes_->name()}, "the file has no frame with positions");
+  if (count == 0)
+    fail(Exit::BadInput, code::no_frame, {bytes_->name()}, "the file has no frame with positions");
   fail(Exit::BadInput, code::no_frame, {bytes_->name()},
-       fmt::format("there is no frame {}: the file has {} {} (0 to {})", frame, count, count == 1 ? "frame" : "frames", count - 1));
+       fmt::format("there is no frame {}: the file has {} {} (0 to {})", frame, count,
+                   count == 1 ? "frame" : "frames", count - 1));
 }
 
 // The next frame with positions; false when there is none.
@@ -38,8 +43,9 @@ bool BinaryTrajectory::look_further() {
       wanted = skip_frame(in);
     } catch (const Failure& failure) {
       if (failure.diagnostic().code != code::ends_early || starts_.empty()) throw;
-      warnings_.warning(code::cut_frame, byte_place(bytes(), start),
-                        fmt::format("frame {} is cut off and left out: the file ends within it", starts_.size()));
+      warnings_.warning(
+          code::cut_frame, byte_place(bytes(), start),
+          fmt::format("frame {} is cut off and left out: the file ends within it", starts_.size()));
       break;
     }
     next_ = in.at();
@@ -51,8 +57,9 @@ bool BinaryTrajectory::look_further() {
   }
   complete_ = true;
   if (skipped_ > 0)
-    warnings_.warning(molecule_code::left_out, {bytes().name()},
-                      fmt::format("{} {} without positions left out", skipped_, skipped_ == 1 ? "frame is" : "frames are"));
+    warnings_.warning(
+        molecule_code::left_out, {bytes().name()},
+        fmt::format("{} {} without positions left out", skipped_, skipped_ == 1 ? "frame is" : "frames are"));
   return false;
 }
 

@@ -12,6 +12,7 @@
 #include "core/data/source.hpp"
 
 #include <bit>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <span>
@@ -24,16 +25,20 @@ enum class Order : std::uint8_t { Little, Big };
 // A number of type T at `from`, wherever it is aligned.
 template <class T> [[nodiscard]] T load_number(const char* from, Order order) {
   static_assert(std::is_arithmetic_v<T> && sizeof(T) <= 8);
-  using Word = std::conditional_t<sizeof(T) == 8, std::uint64_t,
-                                  std::conditional_t<sizeof(T) == 4, std::uint32_t,
-                                                     std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint8_t>>>;
+  using Word =
+      std::conditional_t<sizeof(T) == 8, std::uint64_t,
+                         std::conditional_t<sizeof(T) == 4, std::uint32_t,
+                                            std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint8_t>>>;
   Word word{};
   std::memcpy(&word, from, sizeof word);
   if constexpr (sizeof(T) > 1)
     if ((order == Order::Big) != (std::endian::native == std::endian::big)) {
-      if constexpr (sizeof(T) == 8) word = __builtin_bswap64(word);
-      else if constexpr (sizeof(T) == 4) word = __builtin_bswap32(word);
-      else word = __builtin_bswap16(word);
+      if constexpr (sizeof(T) == 8)
+        word = __builtin_bswap64(word);
+      else if constexpr (sizeof(T) == 4)
+        word = __builtin_bswap32(word);
+      else
+        word = __builtin_bswap16(word);
     }
   return std::bit_cast<T>(word);
 }
@@ -51,10 +56,18 @@ template <class T> void load_reals(const char* from, Order order, std::span<doub
   return !__builtin_mul_overflow(a, b, &product);
 }
 
+// The integer that a number read as double is; the nearest possible one outside the range, 0 for NaN.
+[[nodiscard]] inline std::int64_t whole_number(double value) {
+  constexpr double limit = 9223372036854775808.0; // 2^63
+  if (value >= limit) return INT64_MAX;
+  return value > -limit ? static_cast<std::int64_t>(value) : value <= -limit ? INT64_MIN : 0;
+}
+
 // A place in the bytes that moves forward. `what` completes "the file ends within ...".
 class ByteReader {
 public:
-  ByteReader(const Bytes& bytes, Order order, std::uint64_t at = 0) : bytes_(&bytes), order_(order), at_(at) {}
+  ByteReader(const Bytes& bytes, Order order, std::uint64_t at = 0)
+      : bytes_(&bytes), order_(order), at_(at) {}
   [[nodiscard]] std::uint64_t at() const { return at_; }
   [[nodiscard]] std::uint64_t size() const { return bytes_->view().size(); }
   [[nodiscard]] std::uint64_t left() const { return at_ < size() ? size() - at_ : 0; }
@@ -62,7 +75,7 @@ public:
   void seek(std::uint64_t at) { at_ = at; }
   void skip(std::uint64_t count, std::string_view what) { (void)take(count, what); }
   [[nodiscard]] std::string_view take(std::uint64_t count, std::string_view what) { // D006
-    if (count > left()) ends(count, what);
+    if (count > left() || at_ > size()) ends(count, what);
     const std::string_view taken = bytes_->view().substr(at_, count);
     at_ += count;
     return taken;
@@ -75,7 +88,8 @@ public:
     const char* from = take(width * out.size(), what).data();
     width == 8 ? load_reals<double>(from, order_, out, scale) : load_reals<float>(from, order_, out, scale);
   }
-  [[noreturn]] void refuse(std::string_view code, std::string text, std::vector<std::string> hints = {}) const;
+  [[noreturn]] void refuse(std::string_view code, std::string text,
+                           std::vector<std::string> hints = {}) const;
   [[noreturn]] void refuse_at(std::uint64_t at, std::string_view code, std::string text,
                               std::vector<std::string> hints = {}) const;
 
@@ -104,7 +118,8 @@ public:
   Frame read(std::uint64_t frame) override;
 
 protected:
-  BinaryTrajectory(std::shared_ptr<Bytes> bytes, Order order) : BinarySource(std::move(bytes)), order_(order) {}
+  BinaryTrajectory(std::shared_ptr<Bytes> bytes, Order order)
+      : BinarySource(std::move(bytes)), order_(order) {}
   // Moves behind the frame that begins at `in` by its header alone; false = it holds no positions and is
   // left out of the series. D006 when the file ends within it, D040 or D043 when it is none.
   virtual bool skip_frame(ByteReader& in) const = 0;
@@ -114,8 +129,8 @@ private:
   bool look_further();
   Order order_;
   std::vector<std::uint64_t> starts_{};
-  std::uint64_t next_{};     // behind the last known frame
-  std::uint64_t skipped_{};  // frames left out
+  std::uint64_t next_{};    // behind the last known frame
+  std::uint64_t skipped_{}; // frames left out
   bool complete_{};
 };
 

@@ -68,12 +68,14 @@ bool unpack_lz4(std::string_view packed, std::span<char> out) {
     std::size_t literals = token >> 4, match = token & 15;
     if (!lz4_length(packed, at, literals)) return false;
     if (literals > packed.size() - at || literals > out.size() - made) return false;
-    std::copy_n(packed.begin() + static_cast<std::ptrdiff_t>(at), literals, out.begin() + static_cast<std::ptrdiff_t>(made));
+    std::copy_n(packed.begin() + static_cast<std::ptrdiff_t>(at), literals,
+                out.begin() + static_cast<std::ptrdiff_t>(made));
     at += literals;
     made += literals;
     if (at == packed.size()) return made == out.size();
     if (packed.size() - at < 2) return false;
-    const std::size_t offset = static_cast<unsigned char>(packed[at]) | static_cast<std::size_t>(static_cast<unsigned char>(packed[at + 1])) << 8;
+    const std::size_t offset = static_cast<unsigned char>(packed[at]) |
+                               static_cast<std::size_t>(static_cast<unsigned char>(packed[at + 1])) << 8;
     at += 2;
     if (!lz4_length(packed, at, match)) return false;
     match += 4;
@@ -86,8 +88,9 @@ bool unpack_lz4(std::string_view packed, std::span<char> out) {
 bool unpack_lzma(std::string_view packed, std::span<char> out) {
   std::uint64_t memory = std::uint64_t{1} << 30;
   std::size_t used = 0, made = 0;
-  const lzma_ret state = lzma_stream_buffer_decode(&memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(packed.data()), &used,
-                                                   packed.size(), reinterpret_cast<std::uint8_t*>(out.data()), &made, out.size());
+  const lzma_ret state = lzma_stream_buffer_decode(
+      &memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(packed.data()), &used, packed.size(),
+      reinterpret_cast<std::uint8_t*>(out.data()), &made, out.size());
   return state == LZMA_OK && made == out.size();
 }
 

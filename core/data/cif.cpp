@@ -9,10 +9,24 @@
 namespace mote::data {
 namespace {
 
-bool blank(char c) { return is_space(c) || c == '\n'; }
+bool blank(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
 bool begins_with(std::string_view text, std::string_view word) {
   return text.size() >= word.size() && same_word(text.substr(0, word.size()), word);
+}
+
+// What a word without quotes is; most are values and begin with another letter.
+CifToken::Kind kind_of_word(std::string_view word) {
+  switch (word[0]) {
+  case '_': return CifToken::Kind::Tag;
+  case 'l':
+  case 'L': return same_word(word, "loop_") ? CifToken::Kind::Loop : CifToken::Kind::Value;
+  case 'd':
+  case 'D': return begins_with(word, "data_") ? CifToken::Kind::Data : CifToken::Kind::Value;
+  case 's':
+  case 'S': return begins_with(word, "save_") ? CifToken::Kind::Save : CifToken::Kind::Value;
+  default: return CifToken::Kind::Value;
+  }
 }
 
 } // namespace
@@ -23,7 +37,7 @@ void CifScanner::skip_blanks() {
     if (c == '\n') {
       ++line_;
       line_begin_ = ++at_;
-    } else if (is_space(c)) {
+    } else if (blank(c)) {
       ++at_;
     } else if (c == '#') {
       at_ = std::min(all_.find('\n', at_), all_.size());
@@ -47,10 +61,7 @@ CifToken CifScanner::next() {
   while (at_ < all_.size() && !blank(all_[at_])) ++at_;
   last_end_ = at_;
   CifToken token = made(CifToken::Kind::Value, begin, at_, false);
-  if (c == '_') token.kind = CifToken::Kind::Tag;
-  else if (same_word(token.text, "loop_")) token.kind = CifToken::Kind::Loop;
-  else if (begins_with(token.text, "data_")) token.kind = CifToken::Kind::Data;
-  else if (begins_with(token.text, "save_")) token.kind = CifToken::Kind::Save;
+  token.kind = kind_of_word(token.text);
   return token;
 }
 
@@ -60,7 +71,8 @@ CifToken CifScanner::text_field() {
   const std::size_t end = all_.find("\n;", at_);
   const CifToken first = made(CifToken::Kind::Value, begin, begin, true);
   if (end == std::string_view::npos)
-    fail(Exit::BadInput, code::quote, place(first), "the text field that begins here is not closed by ';' at the begin of a line");
+    fail(Exit::BadInput, code::quote, place(first),
+         "the text field that begins here is not closed by ';' at the begin of a line");
   CifToken token{CifToken::Kind::Value, true, all_.substr(begin, end - begin), first.line, first.column};
   line_ += static_cast<std::uint64_t>(std::count(all_.begin() + static_cast<std::ptrdiff_t>(at_),
                                                  all_.begin() + static_cast<std::ptrdiff_t>(end) + 1, '\n'));
@@ -76,7 +88,8 @@ CifToken CifScanner::in_quotes(char quote) {
   std::size_t end = all_.find(quote, begin);
   while (end < line_end && end + 1 < line_end && !blank(all_[end + 1])) end = all_.find(quote, end + 1);
   const CifToken token = made(CifToken::Kind::Value, begin, std::min(end, line_end), true);
-  if (end >= line_end) fail(Exit::BadInput, code::quote, place(token), "the quote that begins here is not closed in its line");
+  if (end >= line_end)
+    fail(Exit::BadInput, code::quote, place(token), "the quote that begins here is not closed in its line");
   at_ = last_end_ = end + 1;
   return token;
 }

@@ -24,11 +24,13 @@ Operators read_operators(const std::string& file, const CifTable& table) {
     glm::dmat4 matrix(1.0);
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 4; ++c) {
-        const std::string item = c < 3 ? fmt::format("matrix[{}][{}]", r + 1, c + 1) : fmt::format("vector[{}]", r + 1);
+        const std::string item =
+            c < 3 ? fmt::format("matrix[{}][{}]", r + 1, c + 1) : fmt::format("vector[{}]", r + 1);
         const CifToken* value = table.value(row, item);
         if (!value || !cif_real(*value, matrix[c][r]))
           fail(Exit::BadInput, molecule_code::assembly, {file, id->line, id->column},
-               fmt::format("operator {} has no number for {}{}", shown(id->text), item, value ? ": " + shown(value->text) : ""));
+               fmt::format("operator {} has no number for {}{}", shown(id->text), item,
+                           value ? ": " + shown(value->text) : ""));
       }
     out[std::string(id->text)] = matrix;
   }
@@ -39,7 +41,8 @@ Operators read_operators(const std::string& file, const CifTable& table) {
 bool add_item(std::string_view item, std::uint64_t limit, std::vector<std::string>& out) {
   const std::size_t dash = item.find('-');
   std::uint64_t first = 0, last = 0;
-  if (dash != std::string_view::npos && parse_count(trim(item.substr(0, dash)), first) && parse_count(trim(item.substr(dash + 1)), last)) {
+  if (dash != std::string_view::npos && parse_count(trim(item.substr(0, dash)), first) &&
+      parse_count(trim(item.substr(dash + 1)), last)) {
     if (last < first || last - first >= limit) return false;
     for (std::uint64_t id = first; id <= last; ++id) out.push_back(fmt::format("{}", id));
   } else if (!trim(item).empty()) {
@@ -48,15 +51,19 @@ bool add_item(std::string_view item, std::uint64_t limit, std::vector<std::strin
   return out.size() <= limit;
 }
 
-std::vector<glm::dmat4> expand(const std::string& file, const CifToken& expression, const Operators& operators) {
+std::vector<glm::dmat4> expand(const std::string& file, const CifToken& expression,
+                               const Operators& operators) {
   const auto groups = parse_oper_expression(expression.text, most_transforms);
   const SourceLoc loc{file, expression.line, expression.column};
   if (groups.empty())
-    fail(Exit::BadInput, molecule_code::assembly, loc, fmt::format("the operators {} of an assembly are malformed", shown(expression.text)));
+    fail(Exit::BadInput, molecule_code::assembly, loc,
+         fmt::format("the operators {} of an assembly are malformed", shown(expression.text)));
   std::vector<glm::dmat4> out{glm::dmat4(1.0)};
   for (const auto& group : groups) {
     if (out.size() * group.size() > most_transforms)
-      fail(Exit::BadInput, molecule_code::assembly, loc, fmt::format("the operators {} of an assembly are more than {}", shown(expression.text), most_transforms));
+      fail(Exit::BadInput, molecule_code::assembly, loc,
+           fmt::format("the operators {} of an assembly are more than {}", shown(expression.text),
+                       most_transforms));
     std::vector<glm::dmat4> product;
     product.reserve(out.size() * group.size());
     for (const glm::dmat4& left : out)
@@ -65,7 +72,8 @@ std::vector<glm::dmat4> expand(const std::string& file, const CifToken& expressi
         if (found == operators.end()) {
           std::vector<std::string> known;
           for (const auto& [name, matrix] : operators) known.size() < 20 ? known.push_back(name) : void();
-          fail(Exit::BadInput, molecule_code::assembly, loc, fmt::format("an assembly names operator '{}', which is not there", id),
+          fail(Exit::BadInput, molecule_code::assembly, loc,
+               fmt::format("an assembly names operator '{}', which is not there", id),
                {"operators: " + list_of(known)});
         }
         product.push_back(left * found->second);
@@ -77,7 +85,8 @@ std::vector<glm::dmat4> expand(const std::string& file, const CifToken& expressi
 
 } // namespace
 
-std::vector<std::vector<std::string>> parse_oper_expression(std::string_view expression, std::uint64_t limit) {
+std::vector<std::vector<std::string>> parse_oper_expression(std::string_view expression,
+                                                            std::uint64_t limit) {
   std::vector<std::vector<std::string>> groups;
   std::string_view rest = trim(expression);
   while (!rest.empty()) {
@@ -90,7 +99,9 @@ std::vector<std::vector<std::string>> parse_oper_expression(std::string_view exp
     std::vector<std::string> group;
     while (!list.empty()) {
       const std::size_t comma = std::min(list.find(','), list.size());
-      if (list.substr(0, comma).find_first_of("()") != std::string_view::npos || !add_item(list.substr(0, comma), limit, group)) return {};
+      if (list.substr(0, comma).find_first_of("()") != std::string_view::npos ||
+          !add_item(list.substr(0, comma), limit, group))
+        return {};
       list.remove_prefix(std::min(comma + 1, list.size()));
     }
     if (group.empty()) return {};
@@ -99,7 +110,8 @@ std::vector<std::vector<std::string>> parse_oper_expression(std::string_view exp
   return groups;
 }
 
-std::vector<Assembly> read_cif_assemblies(const std::string& file, const CifTable& generators, const CifTable& operator_table) {
+std::vector<Assembly> read_cif_assemblies(const std::string& file, const CifTable& generators,
+                                          const CifTable& operator_table) {
   std::vector<Assembly> out;
   const Operators operators = read_operators(file, operator_table);
   for (std::uint64_t row = 0; row < generators.rows(); ++row) {
@@ -107,14 +119,16 @@ std::vector<Assembly> read_cif_assemblies(const std::string& file, const CifTabl
     const CifToken* expression = generators.value(row, "oper_expression");
     const CifToken* chains = generators.value(row, "asym_id_list");
     if (!id || !expression) continue;
-    auto assembly = std::find_if(out.begin(), out.end(), [&](const Assembly& a) { return a.name == id->text; });
+    auto assembly =
+        std::find_if(out.begin(), out.end(), [&](const Assembly& a) { return a.name == id->text; });
     if (assembly == out.end()) assembly = out.insert(out.end(), {std::string(id->text), "chain_label", {}});
     AssemblyPart part;
     part.transforms = expand(file, *expression, operators);
     std::string_view list = chains ? chains->text : std::string_view{};
     while (!list.empty()) {
       const std::size_t comma = std::min(list.find(','), list.size());
-      if (const std::string_view chain = trim(list.substr(0, comma)); !chain.empty()) part.chains.emplace_back(chain);
+      if (const std::string_view chain = trim(list.substr(0, comma)); !chain.empty())
+        part.chains.emplace_back(chain);
       list.remove_prefix(std::min(comma + 1, list.size()));
     }
     assembly->parts.push_back(std::move(part));

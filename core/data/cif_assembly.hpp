@@ -12,10 +12,12 @@ namespace mote::data {
 
 // `generators`: assembly_id, oper_expression, asym_id_list; `operators`: id, matrix[i][j], vector[i].
 // Chains are those of the column chain_label.
-std::vector<Assembly> read_cif_assemblies(const std::string& file, const CifTable& generators, const CifTable& operators);
+std::vector<Assembly> read_cif_assemblies(const std::string& file, const CifTable& generators,
+                                          const CifTable& operators);
 
 // The identifiers of "(1-3,X0)(7)": groups whose operators multiply, the last one acts first.
 // At most `limit` in one group; an empty result is a malformed expression.
-[[nodiscard]] std::vector<std::vector<std::string>> parse_oper_expression(std::string_view expression, std::uint64_t limit);
+[[nodiscard]] std::vector<std::vector<std::string>> parse_oper_expression(std::string_view expression,
+                                                                          std::uint64_t limit);
 
 } // namespace mote::data

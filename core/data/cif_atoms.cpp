@@ -37,7 +37,8 @@ void CifAtoms::add() {
 }
 
 bool CifAtoms::add_anisou(const CifTable& table) {
-  constexpr std::array<std::string_view, 6> items{"U[1][1]", "U[2][2]", "U[3][3]", "U[1][2]", "U[1][3]", "U[2][3]"};
+  constexpr std::array<std::string_view, 6> items{"U[1][1]", "U[2][2]", "U[3][3]",
+                                                  "U[1][2]", "U[1][3]", "U[2][3]"};
   bool all = true;
   for (std::uint64_t row = 0; row < table.rows(); ++row) {
     const CifToken* id = table.value(row, "id");
@@ -69,7 +70,9 @@ std::string_view CifAtoms::text(Item item) const {
   return found ? found->text : std::string_view{};
 }
 
-std::string_view CifAtoms::text(Item item, Item otherwise) const { return token(item) ? text(item) : text(otherwise); }
+std::string_view CifAtoms::text(Item item, Item otherwise) const {
+  return token(item) ? text(item) : text(otherwise);
+}
 
 double CifAtoms::real(Item item, double otherwise, bool needed) const {
   const CifToken* found = token(item);

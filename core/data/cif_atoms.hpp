@@ -23,13 +23,29 @@ public:
 
 private:
   enum Item : std::size_t {
-    X, Y, Z, Occupancy, BFactor, Id, Symbol, AuthAtom, LabelAtom, AuthResidue, LabelResidue, AuthSequence, LabelSequence,
-    AuthChain, LabelChain, Altloc, Insertion, Group
+    X,
+    Y,
+    Z,
+    Occupancy,
+    BFactor,
+    Id,
+    Symbol,
+    AuthAtom,
+    LabelAtom,
+    AuthResidue,
+    LabelResidue,
+    AuthSequence,
+    LabelSequence,
+    AuthChain,
+    LabelChain,
+    Altloc,
+    Insertion,
+    Group
   };
   static constexpr std::array<std::string_view, 18> wanted{
-      "Cartn_x",       "Cartn_y",      "Cartn_z",      "occupancy",     "B_iso_or_equiv",    "id",
-      "type_symbol",   "auth_atom_id", "label_atom_id", "auth_comp_id", "label_comp_id",     "auth_seq_id",
-      "label_seq_id",  "auth_asym_id", "label_asym_id", "label_alt_id", "pdbx_PDB_ins_code", "group_PDB"};
+      "Cartn_x",      "Cartn_y",      "Cartn_z",       "occupancy",    "B_iso_or_equiv",    "id",
+      "type_symbol",  "auth_atom_id", "label_atom_id", "auth_comp_id", "label_comp_id",     "auth_seq_id",
+      "label_seq_id", "auth_asym_id", "label_asym_id", "label_alt_id", "pdbx_PDB_ins_code", "group_PDB"};
 
   [[noreturn]] void refuse(const CifToken& where, std::string what) const;
   [[nodiscard]] const CifToken* token(Item item) const; // nullptr: ? or . or no such item

@@ -29,7 +29,8 @@ inline constexpr std::string_view end_mark = "D073";
 inline constexpr std::array<CodeLine, 14> field_code_table{{
     {field_code::packed, "error: packed data (xz, zstd, zip, a block of a VTK array) are cut off or damaged"},
     {field_code::markup, "error: an XML file is malformed"},
-    {field_code::part, "error: a part or an attribute is missing, appears twice or has a value that cannot be read"},
+    {field_code::part,
+     "error: a part or an attribute is missing, appears twice or has a value that cannot be read"},
     {field_code::base64, "error: base64 text holds something else"},
     {field_code::length, "error: an array has another length than the number of points asks for"},
     {field_code::variant, "error: a variant of the format that cannot be read"},
@@ -40,7 +41,7 @@ inline constexpr std::array<CodeLine, 14> field_code_table{{
     {field_code::raw_layout, "error: a layout entry of a raw description is malformed"},
     {field_code::raw_join, "error: the files of a raw description do not hold the same particles"},
     {field_code::left_out, "note: parts of the file that are no particles are left out"},
-    {field_code::end_mark, "warning: the data are whole, but the mark behind them is missing"},
+    {field_code::end_mark, "warning: the end mark or the last line end is missing: the file may be cut off"},
 }};
 
 } // namespace mote::data

@@ -26,17 +26,22 @@ inline constexpr std::string_view anisotropy = "D052";
 } // namespace molecule_code
 
 inline constexpr std::array<CodeLine, 13> molecule_code_table{{
-    {molecule_code::structure, "error: a magic number, a record length or a chunk of a binary file is not what the format asks for"},
+    {molecule_code::structure,
+     "error: a magic number, a record length or a chunk of a binary file is not what the format asks for"},
     {molecule_code::compressed, "error: the compressed coordinates of a frame are damaged"},
-    {molecule_code::variant, "error: a variant of the format that is not read (velocity DCD, newer GSD, other NetCDF)"},
+    {molecule_code::variant,
+     "error: a variant of the format that is not read (velocity DCD, newer GSD, other NetCDF)"},
     {molecule_code::count, "error: a count is impossible: negative, or more than the file can hold"},
     {molecule_code::cif_syntax, "error: the syntax of a CIF file is broken"},
     {molecule_code::assembly, "error: an assembly or one of its operators is malformed"},
-    {molecule_code::atom_style, "error: the atom style of a LAMMPS data file is unknown or does not fit its rows"},
+    {molecule_code::atom_style,
+     "error: the atom style of a LAMMPS data file is unknown or does not fit its rows"},
     {molecule_code::bond, "error (lammps-data, gsd), warning (pdb): a bond names an atom that is not there"},
-    {molecule_code::guessed_style, "warning: the file does not name its atom style; it is guessed from the rows"},
+    {molecule_code::guessed_style,
+     "warning: the file does not name its atom style; it is guessed from the rows"},
     {molecule_code::left_out, "warning: frames without positions are left out"},
-    {molecule_code::header_count, "warning: the header's number of frames is not the number of frames in the file"},
+    {molecule_code::header_count,
+     "warning: the header's number of frames is not the number of frames in the file"},
     {molecule_code::last_line, "warning: the last line has no line end and may be cut off"},
     {molecule_code::anisotropy, "warning: ANISOU records or rows that belong to no atom are ignored"},
 }};

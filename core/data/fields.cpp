@@ -4,13 +4,13 @@
 #include "core/data/codes_fields.hpp"
 
 #include <fmt/format.h>
-
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <type_traits>
 
 namespace mote::data {
@@ -25,13 +25,15 @@ double half_to_double(std::uint16_t bits) {
   return bits & 0x8000 ? -magnitude : magnitude;
 }
 
-template <class T, class Out> void copy_rows(std::string_view bytes, const Packed& packed, std::vector<Out>& out) {
+template <class T, class Out>
+void copy_rows(std::string_view bytes, const Packed& packed, std::vector<Out>& out) {
   const std::uint64_t stride = packed.stride ? packed.stride : sizeof(T) * packed.components;
   out.resize(packed.rows * packed.components);
   Out* to = out.data();
   for (std::uint64_t row = 0; row < packed.rows; ++row) {
     const char* from = bytes.data() + row * stride;
-    for (std::uint32_t k = 0; k < packed.components; ++k) *to++ = static_cast<Out>(load_number<T>(from + k * sizeof(T), packed.order));
+    for (std::uint32_t k = 0; k < packed.components; ++k)
+      *to++ = static_cast<Out>(load_number<T>(from + k * sizeof(T), packed.order));
   }
 }
 
@@ -64,14 +66,16 @@ bool is_whole(const std::vector<Piece>& pieces, const std::vector<Column>& array
   return true;
 }
 
-Column gather(const std::vector<Piece>& pieces, std::vector<Column>& arrays, const RowColumn& plan, std::uint64_t rows) {
+Column gather(const std::vector<Piece>& pieces, std::vector<Column>& arrays, const RowColumn& plan,
+              std::uint64_t rows) {
   Column out;
   const auto components = static_cast<std::uint32_t>(pieces.size());
   const bool whole_numbers = plan.name != "position" && plan.scale == 1.0 &&
                              std::all_of(pieces.begin(), pieces.end(), [&](const Piece& p) {
                                return arrays[p.array].type() == ColumnType::Int;
                              });
-  const bool real_position = plan.name == "position" && arrays[pieces.front().array].type() == ColumnType::Double;
+  const bool real_position =
+      plan.name == "position" && arrays[pieces.front().array].type() == ColumnType::Double;
   if (is_whole(pieces, arrays) && plan.scale == 1.0 && (plan.name != "position" || real_position)) {
     out = std::move(arrays[pieces.front().array]);
   } else if (whole_numbers) {
@@ -79,7 +83,8 @@ Column gather(const std::vector<Piece>& pieces, std::vector<Column>& arrays, con
     for (std::uint32_t k = 0; k < components; ++k) {
       const Column& from = arrays[pieces[k].array];
       const auto& held = std::get<std::vector<std::int64_t>>(from.values);
-      for (std::uint64_t r = 0; r < rows; ++r) values[r * components + k] = held[r * from.components + pieces[k].component];
+      for (std::uint64_t r = 0; r < rows; ++r)
+        values[r * components + k] = held[r * from.components + pieces[k].component];
     }
   } else {
     auto& values = out.values.emplace<std::vector<double>>(rows * components);
@@ -104,7 +109,11 @@ public:
       fail(Exit::BadInput, code::no_frame, {bytes_->name()},
            fmt::format("there is no frame {}: the file has 1 frame (0 to 0)", frame));
     warnings_ = bytes_->warnings();
-    return parse_(*bytes_, warnings_);
+    try {
+      return parse_(*bytes_, warnings_);
+    } catch (const std::bad_alloc&) {
+      fail(Exit::BadInput, code::memory, {bytes_->name()}, "there is not enough memory for the content");
+    }
   }
 
 private:
@@ -120,12 +129,6 @@ std::size_t size_of(Scalar type) {
   return sizes[static_cast<std::size_t>(type)];
 }
 
-std::string_view to_string(Scalar type) {
-  constexpr std::array<std::string_view, 11> names{"int8",   "uint8", "int16",  "uint16",  "int32",
-                                                   "uint32", "int64", "uint64", "float16", "float32", "float64"};
-  return names[static_cast<std::size_t>(type)];
-}
-
 std::uint64_t times(std::uint64_t a, std::uint64_t b) {
   constexpr std::uint64_t top = std::numeric_limits<std::uint64_t>::max();
   return b != 0 && a > top / b ? top : a * b;
@@ -138,12 +141,13 @@ std::uint64_t plus(std::uint64_t a, std::uint64_t b) {
 void need_memory(std::uint64_t bytes, const SourceLoc& loc, std::string_view what) {
   const long pages = ::sysconf(_SC_PHYS_PAGES);
   const long page = ::sysconf(_SC_PAGESIZE);
-  const std::uint64_t limit = pages > 0 && page > 0
-                                  ? static_cast<std::uint64_t>(pages) / 4 * 3 * static_cast<std::uint64_t>(page)
-                                  : std::uint64_t{1} << 32;
+  const std::uint64_t limit =
+      pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) / 4 * 3 * static_cast<std::uint64_t>(page)
+                            : std::uint64_t{1} << 32;
   if (bytes > limit)
     fail(Exit::BadInput, code::memory, loc,
-         fmt::format("{} need {} of memory, but {} may be used", what, as_mebibytes(bytes), as_mebibytes(limit)));
+         fmt::format("{} need {} of memory, but {} may be used", what, as_mebibytes(bytes),
+                     as_mebibytes(limit)));
 }
 
 void need_bytes(std::uint64_t wanted, std::uint64_t there, const SourceLoc& loc, std::string_view what) {
@@ -180,7 +184,11 @@ Column unpack(std::string name, std::string_view bytes, const Packed& packed) {
 Column position_column(std::vector<double> values) { return {"position", 3, std::move(values), {}}; }
 
 std::string decode_percent(std::string_view name) {
-  const auto digit = [](char c) { return c >= '0' && c <= '9' ? c - '0' : (c | 0x20) >= 'a' && (c | 0x20) <= 'f' ? (c | 0x20) - 'a' + 10 : -1; };
+  const auto digit = [](char c) {
+    return c >= '0' && c <= '9'                     ? c - '0'
+           : (c | 0x20) >= 'a' && (c | 0x20) <= 'f' ? (c | 0x20) - 'a' + 10
+                                                    : -1;
+  };
   std::string out;
   for (std::size_t i = 0; i < name.size(); ++i) {
     if (name[i] == '%' && i + 2 < name.size() && digit(name[i + 1]) >= 0 && digit(name[i + 2]) >= 0) {
@@ -213,6 +221,13 @@ void assemble(Frame& frame, std::vector<Column> arrays, const Customs& customs, 
   for (std::size_t c = 0; c < layout.columns.size(); ++c)
     frame.columns.push_back(gather(pieces[c], arrays, layout.columns[c], frame.count));
   finish_columns(frame.columns);
+}
+
+void check_last_line(const Bytes& bytes, Diagnostics& warnings) {
+  const std::string_view all = bytes.view();
+  if (!all.ends_with('\n'))
+    warnings.warning(field_code::end_mark, byte_place(bytes, all.size()),
+                     "the last line has no line end: the file may be cut off");
 }
 
 std::unique_ptr<Source> one_frame(std::string_view format, std::shared_ptr<Bytes> bytes, ParseFile parse) {

@@ -21,10 +21,19 @@
 namespace mote::data {
 
 enum class Scalar : std::uint8_t {
-  Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float16, Float32, Float64
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Int64,
+  UInt64,
+  Float16,
+  Float32,
+  Float64
 };
 [[nodiscard]] std::size_t size_of(Scalar type);
-[[nodiscard]] std::string_view to_string(Scalar type); // "int8", ..., "float64"
 constexpr bool is_real(Scalar type) { return type >= Scalar::Float16; }
 
 // a * b, or 2^64 - 1 where that does not fit.
@@ -51,13 +60,16 @@ Column unpack(std::string name, std::string_view bytes, const Packed& packed);
 
 // A column that holds a position and nothing else; `values` are x y z, x y z, ...
 Column position_column(std::vector<double> values);
-// Names of point data lose a leading path or %20; empty ones become "unnamed".
+// "a%20b" -> "a b", as VTK writes names; an empty name becomes "unnamed".
 [[nodiscard]] std::string decode_percent(std::string_view name);
 
 // Arrays as the file names them -> frame.columns and frame.count, by the same table of names as text
 // formats (names.hpp): x y z become position, a diameter a radius. The first array of a name keeps it.
 // All arrays must have the same number of rows. D013 without a position.
 void assemble(Frame& frame, std::vector<Column> arrays, const Customs& customs, const SourceLoc& loc);
+
+// D073 when a text does not end with a line end: its last number may have lost digits.
+void check_last_line(const Bytes& bytes, Diagnostics& warnings);
 
 // A file that is one frame; `parse` reads all of it anew for each read().
 using ParseFile = Frame (*)(Bytes&, Diagnostics& warnings);

@@ -42,12 +42,14 @@ std::vector<double> image_points(const ImageGrid& grid, bool centers, const Sour
                                          (static_cast<double>(j) + shift[1]) * grid.spacing[1],
                                          (static_cast<double>(k) + shift[2]) * grid.spacing[2]};
         for (std::size_t a = 0; a < 3; ++a)
-          out.push_back(grid.origin[a] + (m[3 * a] * step[0] + m[3 * a + 1] * step[1] + m[3 * a + 2] * step[2]));
+          out.push_back(grid.origin[a] +
+                        (m[3 * a] * step[0] + m[3 * a + 1] * step[1] + m[3 * a + 2] * step[2]));
       }
   return out;
 }
 
-std::vector<double> rectilinear_points(const std::array<std::vector<double>, 3>& axes, bool centers, const SourceLoc& loc) {
+std::vector<double> rectilinear_points(const std::array<std::vector<double>, 3>& axes, bool centers,
+                                       const SourceLoc& loc) {
   std::array<std::vector<double>, 3> at = axes;
   GridSize size;
   for (std::size_t a = 0; a < 3; ++a) size.nodes[a] = axes[a].size();
@@ -66,7 +68,8 @@ std::vector<double> rectilinear_points(const std::array<std::vector<double>, 3>&
   return out;
 }
 
-std::vector<double> structured_centers(const GridSize& size, const std::vector<double>& points, const SourceLoc& loc) {
+std::vector<double> structured_centers(const GridSize& size, const std::vector<double>& points,
+                                       const SourceLoc& loc) {
   check(size, loc);
   const auto n = cell_counts(size.nodes);
   std::array<std::uint64_t, 3> last{}; // how far the opposite corner lies

@@ -29,8 +29,10 @@ struct ImageGrid {
 
 // All three check the memory they need (D004) at `loc`. `centers`: of the cells instead of the nodes.
 std::vector<double> image_points(const ImageGrid& grid, bool centers, const SourceLoc& loc);
-std::vector<double> rectilinear_points(const std::array<std::vector<double>, 3>& axes, bool centers, const SourceLoc& loc);
+std::vector<double> rectilinear_points(const std::array<std::vector<double>, 3>& axes, bool centers,
+                                       const SourceLoc& loc);
 // `points` are those of a structured grid: the means of the corners of each cell.
-std::vector<double> structured_centers(const GridSize& size, const std::vector<double>& points, const SourceLoc& loc);
+std::vector<double> structured_centers(const GridSize& size, const std::vector<double>& points,
+                                       const SourceLoc& loc);
 
 } // namespace mote::data

@@ -43,7 +43,8 @@ const LammpsStyle* find_lammps_style(std::string_view name) {
   return nullptr;
 }
 
-const LammpsStyle* guess_lammps_style(std::span<const std::string_view> words, bool bonded, std::uint64_t types) {
+const LammpsStyle* guess_lammps_style(std::span<const std::string_view> words, bool bonded,
+                                      std::uint64_t types) {
   if (words.size() < 5) return nullptr;
   std::uint64_t third = 0;
   const bool third_is_type = parse_count(words[2], third) && third >= 1 && third <= types;

@@ -20,6 +20,7 @@ struct LammpsStyle {
 [[nodiscard]] const LammpsStyle* find_lammps_style(std::string_view name); // nullptr = unknown
 // The style that a first row of `words` (image flags included, no comment) suggests, nullptr = none.
 // `bonded`: the file has bonds. `types`: its number of atom types.
-[[nodiscard]] const LammpsStyle* guess_lammps_style(std::span<const std::string_view> words, bool bonded, std::uint64_t types);
+[[nodiscard]] const LammpsStyle* guess_lammps_style(std::span<const std::string_view> words, bool bonded,
+                                                    std::uint64_t types);
 
 } // namespace mote::data

@@ -18,7 +18,8 @@ constexpr bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' &&
 
 // The symbol that exactly these letters are, or nothing.
 std::string_view symbol_of(std::string_view letters) {
-  if (letters.empty() || letters.size() > 2 || !std::all_of(letters.begin(), letters.end(), is_letter)) return {};
+  if (letters.empty() || letters.size() > 2 || !std::all_of(letters.begin(), letters.end(), is_letter))
+    return {};
   const Element* found = find_element(letters);
   const bool isotope = same_word(letters, "D") || same_word(letters, "T");
   return found && (isotope || same_word(found->symbol, letters)) ? found->symbol : std::string_view{};
@@ -39,7 +40,8 @@ void Labels::add(std::string_view word) {
     column_.codes.push_back(last_);
     return;
   }
-  const auto [at, fresh] = map_.try_emplace(std::string(word), static_cast<std::uint32_t>(column_.dictionary.size()));
+  const auto [at, fresh] =
+      map_.try_emplace(std::string(word), static_cast<std::uint32_t>(column_.dictionary.size()));
   if (fresh) column_.dictionary.emplace_back(word);
   last_ = at->second;
   column_.codes.push_back(last_);
@@ -86,8 +88,11 @@ void AtomColumns::give(Frame& frame) {
 
 std::optional<Box> cell_box(const glm::dvec3& lengths, const glm::dvec3& angles) {
   for (int i = 0; i < 3; ++i)
-    if (!(lengths[i] > 0 && std::isfinite(lengths[i]) && angles[i] > 0 && angles[i] < 180)) return std::nullopt;
-  auto cosine = [](double degrees) { return degrees == 90.0 ? 0.0 : std::cos(degrees * std::numbers::pi / 180); };
+    if (!(lengths[i] > 0 && std::isfinite(lengths[i]) && angles[i] > 0 && angles[i] < 180))
+      return std::nullopt;
+  auto cosine = [](double degrees) {
+    return degrees == 90.0 ? 0.0 : std::cos(degrees * std::numbers::pi / 180);
+  };
   const double ca = cosine(angles.x), cb = cosine(angles.y), cg = cosine(angles.z);
   const double sg = angles.z == 90.0 ? 1.0 : std::sin(angles.z * std::numbers::pi / 180);
   const double cy = (ca - cb * cg) / sg;
@@ -103,7 +108,8 @@ std::optional<Box> cell_box(const glm::dvec3& lengths, const glm::dvec3& angles)
 std::string_view element_of_pdb_name(std::string_view four, std::string_view residue) {
   if (four.size() < 2 || four[0] == ' ' || is_digit(four[0])) {
     const std::string_view name = trim(four);
-    const std::size_t letter = static_cast<std::size_t>(std::find_if(name.begin(), name.end(), is_letter) - name.begin());
+    const std::size_t letter =
+        static_cast<std::size_t>(std::find_if(name.begin(), name.end(), is_letter) - name.begin());
     return letter < name.size() ? or_unknown(symbol_of(name.substr(letter, 1))) : "X";
   }
   const bool four_letters = four.size() == 4 && four[3] != ' '; // HG11: a hydrogen that fills all columns
@@ -117,7 +123,8 @@ std::string_view element_of_name(std::string_view name, std::string_view residue
   const std::string_view letters = without_mark(name);
   if (same_word(letters, without_mark(residue)) && letters.size() == 2)
     if (const std::string_view ion = symbol_of(letters); !ion.empty()) return ion;
-  constexpr std::array<std::string_view, 11> certain{"FE", "ZN", "MG", "MN", "CL", "BR", "LI", "SI", "SE", "CU", "AL"};
+  constexpr std::array<std::string_view, 11> certain{"FE", "ZN", "MG", "MN", "CL", "BR",
+                                                     "LI", "SI", "SE", "CU", "AL"};
   for (const std::string_view two : certain)
     if (same_word(letters, two)) return symbol_of(two);
   return or_unknown(symbol_of(letters.substr(0, 1)));

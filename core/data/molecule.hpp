@@ -22,7 +22,9 @@ namespace mote::data {
 class Labels {
 public:
   void add(std::string_view word);
-  [[nodiscard]] bool any_text() const { return map_.size() > 1 || (map_.size() == 1 && !column_.dictionary[0].empty()); }
+  [[nodiscard]] bool any_text() const {
+    return map_.size() > 1 || (map_.size() == 1 && !column_.dictionary[0].empty());
+  }
   Column take(std::string name) { return {std::move(name), 1, std::move(column_), {}}; }
 
 private:
@@ -67,10 +69,12 @@ struct AtomColumns {
 // letter counts, except in names such as FE, ZN, BR.
 [[nodiscard]] std::string_view element_of_name(std::string_view name, std::string_view residue);
 
-[[nodiscard]] inline Column real_column(std::string name, std::uint32_t components, std::vector<double> values, std::string unit = {}) {
+[[nodiscard]] inline Column real_column(std::string name, std::uint32_t components,
+                                        std::vector<double> values, std::string unit = {}) {
   return {std::move(name), components, std::move(values), std::move(unit)};
 }
-[[nodiscard]] inline Column int_column(std::string name, std::vector<std::int64_t> values, std::uint32_t components = 1) {
+[[nodiscard]] inline Column int_column(std::string name, std::vector<std::int64_t> values,
+                                       std::uint32_t components = 1) {
   return {std::move(name), components, std::move(values), {}};
 }
 

@@ -14,7 +14,20 @@
 
 namespace mote::data {
 
-enum class NcType : std::uint8_t { None, Byte, Char, Short, Int, Float, Double, UByte, UShort, UInt, Int64, UInt64 };
+enum class NcType : std::uint8_t {
+  None,
+  Byte,
+  Char,
+  Short,
+  Int,
+  Float,
+  Double,
+  UByte,
+  UShort,
+  UInt,
+  Int64,
+  UInt64
+};
 [[nodiscard]] std::uint64_t width_of(NcType type);
 
 struct NcAttribute {
@@ -28,9 +41,9 @@ struct NcVariable {
   std::vector<std::uint32_t> dimensions{}; // indices, slowest first
   std::vector<NcAttribute> attributes{};
   NcType type{};
-  bool record{};            // its first dimension is the unlimited one
-  std::uint64_t values{};   // in one record, or in all
-  std::uint64_t at{};       // of the first value
+  bool record{};          // its first dimension is the unlimited one
+  std::uint64_t values{}; // in one record, or in all
+  std::uint64_t at{};     // of the first value
   [[nodiscard]] std::string text(std::string_view attribute) const;             // "" = none
   [[nodiscard]] std::optional<double> number(std::string_view attribute) const; // its first value
 };
@@ -43,10 +56,10 @@ struct NcHeader {
   std::vector<Dimension> dimensions{};
   std::vector<NcAttribute> attributes{};
   std::vector<NcVariable> variables{};
-  std::uint64_t records{};       // that the file holds completely
-  std::uint64_t stated_records{};// as in the file; all ones: not known to the writer
-  std::uint64_t record_size{};   // bytes from one record to the next
-  std::uint64_t records_at{};    // of the first record
+  std::uint64_t records{};        // that the file holds completely
+  std::uint64_t stated_records{}; // as in the file; all ones: not known to the writer
+  std::uint64_t record_size{};    // bytes from one record to the next
+  std::uint64_t records_at{};     // of the first record
   [[nodiscard]] const NcVariable* find(std::string_view name) const;
   [[nodiscard]] std::string text(std::string_view attribute) const;
 };
@@ -59,7 +72,8 @@ NcHeader read_netcdf_header(const Bytes& bytes);
 [[nodiscard]] double netcdf_number(const Bytes& bytes, const NcHeader& header, const NcVariable& variable,
                                    std::uint64_t record, std::uint64_t index);
 // All values of one record, times `scale`.
-[[nodiscard]] std::vector<double> netcdf_reals(const Bytes& bytes, const NcHeader& header, const NcVariable& variable,
-                                               std::uint64_t record, double scale);
+[[nodiscard]] std::vector<double> netcdf_reals(const Bytes& bytes, const NcHeader& header,
+                                               const NcVariable& variable, std::uint64_t record,
+                                               double scale);
 
 } // namespace mote::data

@@ -19,12 +19,17 @@ public:
     while (const auto line = cursor_.next()) {
       const std::string_view record = pdb_record(line->text);
       if (pdb_is_coordinate(record)) break;
-      if (record == "CRYST1") read_cell(*line);
-      else if (record == "REMARK" && trim(pdb_columns(line->text, 8, 10)) == "350") read_assembly(*line);
-      else if (record == "TITLE") header_.title += trim(pdb_columns(line->text, 11, 80));
-      else if (record == "HEADER") header_.identifier = trim(pdb_columns(line->text, 63, 66));
+      if (record == "CRYST1")
+        read_cell(*line);
+      else if (record == "REMARK" && trim(pdb_columns(line->text, 8, 10)) == "350")
+        read_assembly(*line);
+      else if (record == "TITLE")
+        header_.title += trim(pdb_columns(line->text, 11, 80));
+      else if (record == "HEADER")
+        header_.identifier = trim(pdb_columns(line->text, 63, 66));
     }
-    if (rows_ != 0) refuse(last_, last_.text, fmt::format("operator {} has no row BIOMT{}", serial_, rows_ + 1));
+    if (rows_ != 0)
+      refuse(last_, last_.text, fmt::format("operator {} has no row BIOMT{}", serial_, rows_ + 1));
     return std::move(header_);
   }
 
@@ -39,7 +44,8 @@ private:
     for (std::size_t k = 0; k < 6; ++k) {
       const std::string_view field = pdb_columns(line.text, ends[k], ends[k + 1] - 1);
       if (!parse_real(trim(field), v[k]))
-        fail(Exit::BadInput, code::box, place_in(file_, line, field), fmt::format("{} in CRYST1 is not a number", shown(trim(field))));
+        fail(Exit::BadInput, code::box, place_in(file_, line, field),
+             fmt::format("{} in CRYST1 is not a number", shown(trim(field))));
     }
     header_.space_group = trim(pdb_columns(line.text, 56, 66));
     const bool placeholder = v[0] == 1 && v[1] == 1 && v[2] == 1; // structures without a crystal
@@ -47,7 +53,8 @@ private:
     header_.box = cell_box({v[0], v[1], v[2]}, {v[3], v[4], v[5]});
     if (!header_.box)
       fail(Exit::BadInput, code::box, {file_, line.number},
-           fmt::format("lengths {} {} {} and angles {} {} {} form no cell", v[0], v[1], v[2], v[3], v[4], v[5]));
+           fmt::format("lengths {} {} {} and angles {} {} {} form no cell", v[0], v[1], v[2], v[3], v[4],
+                       v[5]));
   }
 
   void read_assembly(const Line& line) {
@@ -79,19 +86,22 @@ private:
   }
 
   // REMARK 350   BIOMT1   1  1.000000  0.000000  0.000000       42.38700
+  // By words: from operator 1000 on, files move all numbers by one column.
   void add_row(const Line& line) {
-    const std::string_view row_field = pdb_columns(line.text, 19, 19), serial_field = pdb_columns(line.text, 20, 23);
+    Words words(pdb_columns(line.text, 14, 80));
+    const std::string_view name = words.next(), number = words.next();
     std::uint64_t row = 0, serial = 0;
-    if (!parse_count(row_field, row) || row != rows_ + 1)
-      refuse(line, row_field, fmt::format("row BIOMT{} of an operator is needed here, not {}", rows_ + 1, shown(trim(pdb_columns(line.text, 14, 19)))));
-    if (!parse_count(trim(serial_field), serial) || (row > 1 && serial != serial_))
-      refuse(line, serial_field, fmt::format("the number of an operator is {}", shown(trim(serial_field))));
-    constexpr std::array<std::size_t, 5> starts{24, 34, 44, 54, 69};
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::string_view field = pdb_columns(line.text, starts[k], starts[k + 1] - 1);
+    if (!parse_count(name.substr(5), row) || row != rows_ + 1)
+      refuse(line, name,
+             fmt::format("row BIOMT{} of an operator is needed here, not {}", rows_ + 1, shown(name)));
+    if (!parse_count(number, serial) || (row > 1 && serial != serial_))
+      refuse(line, number, fmt::format("the number of an operator is {}", shown(number)));
+    for (int column = 0; column < 4; ++column) {
+      const std::string_view word = words.next();
       double value = 0;
-      if (!parse_real(trim(field), value)) refuse(line, field, fmt::format("{} in an operator is not a number", shown(trim(field))));
-      matrix_[static_cast<int>(k)][static_cast<int>(row) - 1] = value;
+      if (!parse_real(word, value))
+        refuse(line, word, fmt::format("{} in an operator is not a number", shown(word)));
+      matrix_[column][static_cast<int>(row) - 1] = value;
     }
     serial_ = serial;
     rows_ = row % 3;
@@ -119,8 +129,12 @@ std::string_view pdb_columns(std::string_view line, std::size_t first, std::size
 
 std::string_view pdb_record(std::string_view line) { return trim(line.substr(0, 6)); }
 
-bool pdb_is_coordinate(std::string_view record) { return record == "ATOM" || record == "HETATM" || record == "MODEL"; }
+bool pdb_is_coordinate(std::string_view record) {
+  return record == "ATOM" || record == "HETATM" || record == "MODEL";
+}
 
-PdbHeader read_pdb_header(const std::string& file, Cursor cursor) { return HeaderReader(file, cursor).read(); }
+PdbHeader read_pdb_header(const std::string& file, Cursor cursor) {
+  return HeaderReader(file, cursor).read();
+}
 
 } // namespace mote::data

@@ -39,7 +39,10 @@ class DcdSource : public BinarySource {
 public:
   explicit DcdSource(std::shared_ptr<Bytes> bytes) : BinarySource(std::move(bytes)) {
     const auto marks = find_marks(this->bytes().view());
-    if (!marks) reader(Order::Little).refuse(molecule_code::structure, "a DCD file begins with a record of 84 bytes and the word 'CORD'");
+    if (!marks)
+      reader(Order::Little)
+          .refuse(molecule_code::structure,
+                  "a DCD file begins with a record of 84 bytes and the word 'CORD'");
     marks_ = *marks;
     ByteReader in = reader(marks_.order);
     read_header(in);
@@ -50,7 +53,8 @@ public:
 
   Frame read(std::uint64_t index) override {
     if (index >= frames_) no_such_frame(index, frames_);
-    if (some_fixed_ && fixed_positions_.empty()) fixed_positions_ = read_positions(reader_at(0), false).second;
+    if (some_fixed_ && fixed_positions_.empty())
+      fixed_positions_ = read_positions(reader_at(0), false).second;
     auto [box, positions] = read_positions(reader_at(index), index > 0 && some_fixed_);
     Frame frame;
     frame.count = atoms_;
@@ -68,24 +72,30 @@ private:
     return marks_.width == 8 ? in.number<std::uint64_t>(what) : in.number<std::uint32_t>(what);
   }
   // The content of the next record; `expected` bytes of it when given.
-  std::string_view record(ByteReader& in, std::string_view what, std::optional<std::uint64_t> expected = {}) const {
+  std::string_view record(ByteReader& in, std::string_view what,
+                          std::optional<std::uint64_t> expected = {}) const {
     const std::uint64_t start = in.at();
     const std::uint64_t length = mark(in, what);
     if (expected && length != *expected)
-      in.refuse_at(start, molecule_code::structure, fmt::format("the record of {} has {} bytes, but {} are needed", what, length, *expected));
+      in.refuse_at(start, molecule_code::structure,
+                   fmt::format("the record of {} has {} bytes, but {} are needed", what, length, *expected));
     const std::string_view content = in.take(length, what);
     const std::uint64_t end = in.at();
     if (const std::uint64_t again = mark(in, what); again != length)
-      in.refuse_at(end, molecule_code::structure, fmt::format("the record of {} begins with length {} and ends with {}", what, length, again));
+      in.refuse_at(
+          end, molecule_code::structure,
+          fmt::format("the record of {} begins with length {} and ends with {}", what, length, again));
     return content;
   }
 
   void read_header(ByteReader& in) {
     const std::string_view head = record(in, "the header", 84);
     if (head.starts_with("VELD"))
-      in.refuse_at(marks_.width, molecule_code::variant, "the file holds velocities ('VELD'), not positions ('CORD')");
+      in.refuse_at(marks_.width, molecule_code::variant,
+                   "the file holds velocities ('VELD'), not positions ('CORD')");
     std::array<std::int32_t, 20> words{};
-    for (std::size_t k = 0; k < words.size(); ++k) words[k] = load_number<std::int32_t>(head.data() + 4 + 4 * k, marks_.order);
+    for (std::size_t k = 0; k < words.size(); ++k)
+      words[k] = load_number<std::int32_t>(head.data() + 4 + 4 * k, marks_.order);
     stated_frames_ = words[0];
     first_step_ = words[1];
     step_interval_ = words[2];
@@ -99,7 +109,8 @@ private:
     atoms_ = static_cast<std::uint64_t>(atoms);
     const std::int32_t fixed = words[8];
     if (fixed < 0 || fixed > atoms)
-      in.refuse_at(marks_.width + 36, molecule_code::count, fmt::format("{} atoms are fixed, but there are {}", fixed, atoms_));
+      in.refuse_at(marks_.width + 36, molecule_code::count,
+                   fmt::format("{} atoms are fixed, but there are {}", fixed, atoms_));
     if (fixed > 0) read_free_atoms(in, atoms_ - static_cast<std::uint64_t>(fixed));
   }
 
@@ -110,7 +121,8 @@ private:
     for (std::uint64_t k = 0; k < count; ++k) {
       const auto number = load_number<std::int32_t>(list.data() + 4 * k, marks_.order);
       if (number < 1 || static_cast<std::uint64_t>(number) > atoms_)
-        in.refuse_at(at + 4 * k, molecule_code::count, fmt::format("the list of free atoms names atom {}, but there are {}", number, atoms_));
+        in.refuse_at(at + 4 * k, molecule_code::count,
+                     fmt::format("the list of free atoms names atom {}, but there are {}", number, atoms_));
       free_[k] = static_cast<std::uint32_t>(number - 1);
     }
     some_fixed_ = true;
@@ -134,8 +146,9 @@ private:
       warnings_.warning(code::cut_frame, byte_place(bytes(), in.size() - behind % later_size_),
                         fmt::format("frame {} is cut off and left out: the file ends within it", frames_));
     if (stated_frames_ > 0 && static_cast<std::uint64_t>(stated_frames_) != frames_)
-      warnings_.warning(molecule_code::header_count, byte_place(bytes(), marks_.width + 4),
-                        fmt::format("the header promises {} frames, but the file has {}", stated_frames_, frames_));
+      warnings_.warning(
+          molecule_code::header_count, byte_place(bytes(), marks_.width + 4),
+          fmt::format("the header promises {} frames, but the file has {}", stated_frames_, frames_));
   }
 
   std::pair<std::optional<Box>, std::vector<double>> read_positions(ByteReader in, bool only_free) const {
@@ -148,12 +161,18 @@ private:
     }
     const std::uint64_t count = only_free ? free_.size() : atoms_;
     std::array<std::string_view, 3> axes;
-    for (std::size_t k = 0; k < 3; ++k) axes[k] = record(in, k == 0 ? "the x positions" : k == 1 ? "the y positions" : "the z positions", 4 * count);
+    for (std::size_t k = 0; k < 3; ++k)
+      axes[k] = record(in,
+                       k == 0   ? "the x positions"
+                       : k == 1 ? "the y positions"
+                                : "the z positions",
+                       4 * count);
     std::vector<double> positions = only_free ? fixed_positions_ : std::vector<double>(3 * atoms_);
     for (std::uint64_t i = 0; i < count; ++i) {
       const std::uint64_t row = only_free ? free_[i] : i;
       for (std::size_t k = 0; k < 3; ++k)
-        positions[3 * row + k] = static_cast<double>(load_number<float>(axes[k].data() + 4 * i, marks_.order));
+        positions[3 * row + k] =
+            static_cast<double>(load_number<float>(axes[k].data() + 4 * i, marks_.order));
     }
     return {box, std::move(positions)};
   }
@@ -168,7 +187,8 @@ private:
       degrees = degrees && angles[k] > 0 && angles[k] < 180;
     }
     if (cosines) {
-      for (int k = 0; k < 3; ++k) angles[k] = angles[k] == 0 ? 90 : std::acos(angles[k]) * 180 / std::numbers::pi;
+      for (int k = 0; k < 3; ++k)
+        angles[k] = angles[k] == 0 ? 90 : std::acos(angles[k]) * 180 / std::numbers::pi;
       return cell_box({c[0], c[2], c[5]}, angles);
     }
     if (degrees) return cell_box({c[0], c[2], c[5]}, angles);
@@ -192,7 +212,9 @@ Sureness probe(const Probe& file) { return find_marks(file.head) ? Sureness::Cer
 Reader dcd_reader() {
   return {{"dcd", "CHARMM, NAMD and X-PLOR trajectory", "dcd"},
           probe,
-          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> { return std::make_unique<DcdSource>(std::move(bytes)); }};
+          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
+            return std::make_unique<DcdSource>(std::move(bytes));
+          }};
 }
 
 } // namespace mote::data

@@ -50,8 +50,9 @@ protected:
     const std::size_t width = frame.count > 0 && first ? number_width(first->text) : 0;
     if (frame.count > 0 && width == 0 && first)
       fail(Exit::BadInput, code::heading, {file(), first->number},
-           fmt::format("three numbers with decimal points at equal distances are needed behind column 20, not {}",
-                       shown(first->text.substr(std::min(first_number, first->text.size())))));
+           fmt::format(
+               "three numbers with decimal points at equal distances are needed behind column 20, not {}",
+               shown(first->text.substr(std::min(first_number, first->text.size())))));
     read_atoms(cursor, width, frame);
     read_box(cursor, frame);
     frame.properties.emplace_back("time_unit", "ps");
@@ -87,10 +88,13 @@ private:
   std::uint64_t read_count(Cursor& cursor) const {
     const auto line = cursor.next();
     std::uint64_t count = 0;
-    if (!line) fail(Exit::BadInput, code::ends_early, {file(), cursor.line()}, "the file ends before the number of atoms");
+    if (!line)
+      fail(Exit::BadInput, code::ends_early, {file(), cursor.line()},
+           "the file ends before the number of atoms");
     if (!parse_count(trim(line->text), count))
       fail(Exit::BadInput, code::heading, {file(), line->number},
-           fmt::format("the second line of a frame is {}, but the number of atoms is needed there", shown(trim(line->text))));
+           fmt::format("the second line of a frame is {}, but the number of atoms is needed there",
+                       shown(trim(line->text))));
     constexpr std::uint64_t shortest = 27; // an atom line has 20 columns and three numbers
     if (count > cursor.rest().size() / shortest)
       fail(Exit::BadInput, code::ends_early, {file(), line->number},
@@ -112,15 +116,20 @@ private:
       const std::string_view text = line->text;
       if (text.size() < first_number + 3 * width || (cursor.at_end() && row + 1 == frame.count))
         fail(Exit::BadInput, cursor.at_end() ? code::ends_early : code::too_few, {file(), line->number},
-             cursor.at_end() ? fmt::format("the file ends within or behind atom {} of {}", row + 1, frame.count)
-                             : fmt::format("the line of atom {} has {} columns, but {} are needed", row + 1, text.size(), first_number + 3 * width));
-      if (row == 0) has_velocity = text.size() >= first_number + 6 * width && text.find('.', first_number + 3 * width) != std::string_view::npos;
+             cursor.at_end()
+                 ? fmt::format("the file ends within or behind atom {} of {}", row + 1, frame.count)
+                 : fmt::format("the line of atom {} has {} columns, but {} are needed", row + 1, text.size(),
+                               first_number + 3 * width));
+      if (row == 0)
+        has_velocity = text.size() >= first_number + 6 * width &&
+                       text.find('.', first_number + 3 * width) != std::string_view::npos;
       residue_ids.push_back(integer(*line, text.substr(0, 5), "the residue number"));
       const std::string_view residue = trim(text.substr(5, 5)), name = trim(text.substr(10, 5));
       residues.add(residue);
       names.add(name);
       elements.add(element_of_name(name, residue));
-      for (std::size_t k = 0; k < 3; ++k) positions.push_back(real(*line, text.substr(first_number + k * width, width)));
+      for (std::size_t k = 0; k < 3; ++k)
+        positions.push_back(real(*line, text.substr(first_number + k * width, width)));
       for (std::size_t k = 3; has_velocity && k < 6; ++k) {
         if (text.size() < first_number + (k + 1) * width)
           fail(Exit::BadInput, code::too_few, {file(), line->number},
@@ -140,14 +149,16 @@ private:
     std::int64_t value = 0;
     const std::string_view word = trim(field);
     if (!word.empty() && !parse_integer(word, value))
-      fail(Exit::BadInput, code::not_a_value, place_in(file(), line, field), fmt::format("{} is {}, not an integer", what, shown(word)));
+      fail(Exit::BadInput, code::not_a_value, place_in(file(), line, field),
+           fmt::format("{} is {}, not an integer", what, shown(word)));
     return value;
   }
 
   double real(const Line& line, std::string_view field) const {
     double value = 0;
     if (!parse_real(trim(field), value))
-      fail(Exit::BadInput, code::not_a_value, place_in(file(), line, field), fmt::format("{} is not a number", shown(field)));
+      fail(Exit::BadInput, code::not_a_value, place_in(file(), line, field),
+           fmt::format("{} is not a number", shown(field)));
     return value;
   }
 
@@ -167,21 +178,26 @@ private:
   // v1x v2y v3z [v1y v1z v2x v2z v3x v3y]
   void read_box(Cursor& cursor, Frame& frame) {
     const auto line = cursor.next();
-    if (!line) fail(Exit::BadInput, code::ends_early, {file(), cursor.line()}, "the file ends before the box");
+    if (!line)
+      fail(Exit::BadInput, code::ends_early, {file(), cursor.line()}, "the file ends before the box");
     if (cut_box(cursor, *line))
-      fail(Exit::BadInput, code::ends_early, {file(), line->number}, fmt::format("the file ends within the box {}", shown(trim(line->text))));
+      fail(Exit::BadInput, code::ends_early, {file(), line->number},
+           fmt::format("the file ends within the box {}", shown(trim(line->text))));
     if (cursor.at_end() && !cursor.all().ends_with('\n') && !warnings_.has(molecule_code::last_line))
-      warnings_.warning(molecule_code::last_line, {file(), line->number}, "the last line has no line end and may be cut off");
+      warnings_.warning(molecule_code::last_line, {file(), line->number},
+                        "the last line has no line end and may be cut off");
     std::vector<double> v;
     Words words(line->text);
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
       double value = 0;
       if (!parse_real(word, value))
-        fail(Exit::BadInput, code::box, place_in(file(), *line, word), fmt::format("{} in the box is not a number", shown(word)));
+        fail(Exit::BadInput, code::box, place_in(file(), *line, word),
+             fmt::format("{} in the box is not a number", shown(word)));
       v.push_back(value);
     }
     if (v.size() != 3 && v.size() != 9)
-      fail(Exit::BadInput, code::box, {file(), line->number}, fmt::format("the box has {} numbers, but 3 or 9 are needed", v.size()));
+      fail(Exit::BadInput, code::box, {file(), line->number},
+           fmt::format("the box has {} numbers, but 3 or 9 are needed", v.size()));
     v.resize(9, 0.0);
     if (v[0] == 0 && v[1] == 0 && v[2] == 0) return; // no box
     frame.box.emplace();
@@ -208,7 +224,9 @@ Sureness probe(const Probe& file) {
 Reader gro_reader() {
   return {{"gro", "GROMACS structure or trajectory as text (nm, ps)", "gro"},
           probe,
-          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> { return std::make_unique<GroSource>(std::move(bytes)); }};
+          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
+            return std::make_unique<GroSource>(std::move(bytes));
+          }};
 }
 
 } // namespace mote::data

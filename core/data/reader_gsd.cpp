@@ -96,12 +96,13 @@ public:
   Frame read(std::uint64_t index) override {
     if (index >= frames_) no_such_frame(index, frames_);
     Frame frame;
-    if (const Chunk* step = find(index, "configuration/step")) frame.step = static_cast<std::int64_t>(single(*step));
+    if (const Chunk* step = find(index, "configuration/step")) frame.step = whole_number(single(*step));
     frame.count = count_of(index, "particles/N");
     frame.box = box_of(index);
     for (const Known& known : known_chunks) add_known(index, known, frame);
     if (!frame.find("position"))
-      reader(Order::Little).refuse_at(0, code::no_position, fmt::format("frame {} has no chunk particles/position", index));
+      reader(Order::Little)
+          .refuse_at(0, code::no_position, fmt::format("frame {} has no chunk particles/position", index));
     add_types(index, frame);
     add_logged(index, frame);
     add_bonds(index, frame);
@@ -111,17 +112,23 @@ public:
 private:
   void check_version(const ByteReader& in, std::string_view schema, std::uint32_t schema_version) const {
     if ((version_ >> 16) > 2)
-      in.refuse_at(44, molecule_code::variant, fmt::format("the file has GSD version {}.{}; versions 1 and 2 are read", version_ >> 16, version_ & 0xffff));
+      in.refuse_at(44, molecule_code::variant,
+                   fmt::format("the file has GSD version {}.{}; versions 1 and 2 are read", version_ >> 16,
+                               version_ & 0xffff));
     if (schema != "hoomd")
-      in.refuse_at(112, molecule_code::variant, fmt::format("the schema of the file is {}; only 'hoomd' is read", shown(schema)));
+      in.refuse_at(112, molecule_code::variant,
+                   fmt::format("the schema of the file is {}; only 'hoomd' is read", shown(schema)));
     if ((schema_version >> 16) > 1)
-      in.refuse_at(40, molecule_code::variant, fmt::format("the schema has version {}; version 1 is read", schema_version >> 16));
+      in.refuse_at(40, molecule_code::variant,
+                   fmt::format("the schema has version {}; version 1 is read", schema_version >> 16));
   }
 
-  std::string_view table(std::uint64_t at, std::uint64_t entries, std::uint64_t size, std::string_view what) const {
+  std::string_view table(std::uint64_t at, std::uint64_t entries, std::uint64_t size,
+                         std::string_view what) const {
     ByteReader in = reader(Order::Little, at);
     std::uint64_t length = 0;
-    if (!multiply(entries, size, length)) in.refuse_at(8, molecule_code::count, fmt::format("{} cannot have {} entries", what, entries));
+    if (!multiply(entries, size, length))
+      in.refuse_at(8, molecule_code::count, fmt::format("{} cannot have {} entries", what, entries));
     return in.take(length, what);
   }
 
@@ -153,7 +160,9 @@ private:
       check_chunk(chunk, start + at);
       chunks_.push_back(chunk);
     }
-    auto before = [](const Chunk& a, const Chunk& b) { return std::pair(a.frame, a.name) < std::pair(b.frame, b.name); };
+    auto before = [](const Chunk& a, const Chunk& b) {
+      return std::pair(a.frame, a.name) < std::pair(b.frame, b.name);
+    };
     std::stable_sort(chunks_.begin(), chunks_.end(), before);
     frames_ = chunks_.empty() ? 0 : chunks_.back().frame + 1;
     if (frames_ == 0) no_such_frame(0, 0);
@@ -163,22 +172,29 @@ private:
     const ByteReader in = reader(Order::Little, entry_at);
     std::uint64_t values = 0, length = 0;
     if (chunk.name >= names_.size() || width_of(chunk.type) == 0)
-      in.refuse(molecule_code::structure, fmt::format("an entry of the index has name {} and type {}; there are {} names and 11 types",
-                                             chunk.name, chunk.type, names_.size()));
+      in.refuse(molecule_code::structure,
+                fmt::format("an entry of the index has name {} and type {}; there are {} names and 11 types",
+                            chunk.name, chunk.type, names_.size()));
     if (!multiply(chunk.rows, chunk.columns, values) || !multiply(values, width_of(chunk.type), length))
-      in.refuse(molecule_code::count, fmt::format("chunk '{}' cannot have {} rows of {}", names_[chunk.name], chunk.rows, chunk.columns));
+      in.refuse(molecule_code::count, fmt::format("chunk '{}' cannot have {} rows of {}", names_[chunk.name],
+                                                  chunk.rows, chunk.columns));
     if (chunk.at > in.size() || length > in.size() - chunk.at)
-      in.refuse(code::ends_early, fmt::format("the file ends within chunk '{}' of frame {}", names_[chunk.name], chunk.frame));
+      in.refuse(code::ends_early,
+                fmt::format("the file ends within chunk '{}' of frame {}", names_[chunk.name], chunk.frame));
     if (chunk.frame > in.size() / entry_size) // the index has an entry for every frame
-      in.refuse(molecule_code::count, fmt::format("an entry of the index belongs to frame {}, which the file cannot hold", chunk.frame));
+      in.refuse(
+          molecule_code::count,
+          fmt::format("an entry of the index belongs to frame {}, which the file cannot hold", chunk.frame));
   }
 
   [[nodiscard]] const Chunk* in_frame(std::uint64_t frame, std::string_view name) const {
     const auto id = std::find(names_.begin(), names_.end(), name);
     if (id == names_.end()) return nullptr;
     const std::pair<std::uint64_t, std::uint16_t> key(frame, static_cast<std::uint16_t>(id - names_.begin()));
-    const auto at = std::lower_bound(chunks_.begin(), chunks_.end(), key,
-                                     [](const Chunk& c, const auto& wanted) { return std::pair(c.frame, c.name) < wanted; });
+    const auto at =
+        std::lower_bound(chunks_.begin(), chunks_.end(), key, [](const Chunk& c, const auto& wanted) {
+          return std::pair(c.frame, c.name) < wanted;
+        });
     return at != chunks_.end() && std::pair(at->frame, at->name) == key ? &*at : nullptr;
   }
   [[nodiscard]] const Chunk* find(std::uint64_t frame, std::string_view name) const {
@@ -191,34 +207,40 @@ private:
   }
   [[nodiscard]] std::uint64_t count_of(std::uint64_t frame, std::string_view name) const {
     const Chunk* chunk = find(frame, name);
-    return chunk && (chunk->type == u32 || chunk->type == u64) ? static_cast<std::uint64_t>(single(*chunk)) : 0;
+    return chunk && (chunk->type == u32 || chunk->type == u64)
+               ? static_cast<std::uint64_t>(whole_number(single(*chunk)))
+               : 0;
   }
   // A chunk with one row for each of `rows` things; frame 0's only if it fits.
-  [[nodiscard]] const Chunk* fitting(std::uint64_t frame, std::string_view name, std::uint64_t rows, std::uint32_t columns) const {
+  [[nodiscard]] const Chunk* fitting(std::uint64_t frame, std::string_view name, std::uint64_t rows,
+                                     std::uint32_t columns) const {
     const Chunk* chunk = find(frame, name);
     if (!chunk || (chunk->rows == rows && chunk->columns == columns)) return chunk;
     if (chunk->frame != frame) return nullptr;
     reader(Order::Little)
         .refuse_at(chunk->at, molecule_code::count,
-                   fmt::format("chunk '{}' of frame {} has {} x {} values, but {} x {} are needed", name, frame, chunk->rows,
-                               chunk->columns, rows, columns));
+                   fmt::format("chunk '{}' of frame {} has {} x {} values, but {} x {} are needed", name,
+                               frame, chunk->rows, chunk->columns, rows, columns));
   }
 
   [[nodiscard]] Column column_of(const Chunk& chunk, std::string name, double scale, std::string unit) const {
     const std::uint64_t values = chunk.rows * chunk.columns, width = width_of(chunk.type);
     if (chunk.type >= f32 || scale != 1) {
       std::vector<double> out(values);
-      for (std::uint64_t i = 0; i < values; ++i) out[i] = number_at(data(chunk) + i * width, chunk.type) * scale;
+      for (std::uint64_t i = 0; i < values; ++i)
+        out[i] = number_at(data(chunk) + i * width, chunk.type) * scale;
       return real_column(std::move(name), chunk.columns, std::move(out), std::move(unit));
     }
     std::vector<std::int64_t> out(values);
-    for (std::uint64_t i = 0; i < values; ++i) out[i] = static_cast<std::int64_t>(number_at(data(chunk) + i * width, chunk.type));
+    for (std::uint64_t i = 0; i < values; ++i)
+      out[i] = whole_number(number_at(data(chunk) + i * width, chunk.type));
     return int_column(std::move(name), std::move(out), chunk.columns);
   }
 
   void add_known(std::uint64_t index, const Known& known, Frame& frame) const {
     if (const Chunk* chunk = fitting(index, known.chunk, frame.count, known.components))
-      frame.columns.push_back(column_of(*chunk, std::string(known.column), known.scale, std::string(known.unit)));
+      frame.columns.push_back(
+          column_of(*chunk, std::string(known.column), known.scale, std::string(known.unit)));
   }
 
   // Names of types: one row of letters for each, filled up with zeros. Without the chunk: "A".
@@ -237,11 +259,13 @@ private:
     TextColumn types{std::vector<std::uint32_t>(frame.count, 0), names_in(find(index, "particles/types"))};
     if (types.dictionary.empty()) types.dictionary.emplace_back("A");
     for (std::uint64_t row = 0; typeid_chunk && row < frame.count; ++row) {
-      const double id = number_at(data(*typeid_chunk) + row * width_of(typeid_chunk->type), typeid_chunk->type);
+      const double id =
+          number_at(data(*typeid_chunk) + row * width_of(typeid_chunk->type), typeid_chunk->type);
       if (!(id >= 0 && id < static_cast<double>(types.dictionary.size())))
         reader(Order::Little)
             .refuse_at(typeid_chunk->at + row * width_of(typeid_chunk->type), molecule_code::count,
-                       fmt::format("particle {} has type {}, but there are {} types", row, id, types.dictionary.size()));
+                       fmt::format("particle {} has type {}, but there are {} types", row, id,
+                                   types.dictionary.size()));
       types.codes[row] = static_cast<std::uint32_t>(id);
     }
     frame.columns.push_back({"type", 1, std::move(types), {}});
@@ -273,10 +297,11 @@ private:
       const auto rows = static_cast<double>(frame.count);
       if (!(a >= 0 && b >= 0 && a < rows && b < rows))
         reader(Order::Little)
-            .refuse_at(group->at + 2 * k * width, molecule_code::bond,
-                       fmt::format("bond {} joins particles {} and {}, but there are {}", k, a, b, frame.count));
+            .refuse_at(
+                group->at + 2 * k * width, molecule_code::bond,
+                fmt::format("bond {} joins particles {} and {}, but there are {}", k, a, b, frame.count));
       const double type = types ? number_at(data(*types) + k * width_of(types->type), types->type) : 0;
-      bonds.add(static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b), static_cast<std::int64_t>(type));
+      bonds.add(static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b), whole_number(type));
     }
     frame.bonds = bonds.take();
   }
@@ -286,7 +311,8 @@ private:
     const Chunk* chunk = find(index, "configuration/box");
     if (!chunk || chunk->rows * chunk->columns < 6) return std::nullopt;
     double v[6]{};
-    for (std::uint64_t k = 0; k < 6; ++k) v[k] = number_at(data(*chunk) + k * width_of(chunk->type), chunk->type);
+    for (std::uint64_t k = 0; k < 6; ++k)
+      v[k] = number_at(data(*chunk) + k * width_of(chunk->type), chunk->type);
     Box box;
     box.edges = glm::dmat3(v[0], 0, 0, v[3] * v[1], v[1], 0, v[4] * v[2], v[5] * v[2], v[2]);
     box.origin = -0.5 * (box.edges[0] + box.edges[1] + box.edges[2]);
@@ -302,7 +328,8 @@ private:
 };
 
 Sureness probe(const Probe& file) {
-  const bool fits = file.head.size() >= 8 && load_number<std::uint64_t>(file.head.data(), Order::Little) == magic;
+  const bool fits =
+      file.head.size() >= 8 && load_number<std::uint64_t>(file.head.data(), Order::Little) == magic;
   return fits ? Sureness::Certain : Sureness::No;
 }
 
@@ -311,7 +338,9 @@ Sureness probe(const Probe& file) {
 Reader gsd_reader() {
   return {{"gsd", "HOOMD-blue trajectory, schema hoomd", "gsd"},
           probe,
-          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> { return std::make_unique<GsdSource>(std::move(bytes)); }};
+          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
+            return std::make_unique<GsdSource>(std::move(bytes));
+          }};
 }
 
 } // namespace mote::data

@@ -6,6 +6,7 @@
 // does not say which boundaries are periodic: all are taken to be.
 #include "core/data/codes_molecular.hpp"
 #include "core/data/elements.hpp"
+#include "core/data/lammps_sections.hpp"
 #include "core/data/lammps_styles.hpp"
 #include "core/data/molecule.hpp"
 #include "core/data/names.hpp"
@@ -15,45 +16,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
 namespace mote::data {
 namespace {
 
-std::string_view without_comment(std::string_view line) { return trim(line.substr(0, line.find('#'))); }
-std::string_view comment_of(std::string_view line) {
-  const std::size_t mark = line.find('#');
-  return mark == std::string_view::npos ? std::string_view{} : trim(line.substr(mark + 1));
-}
-
-bool is_section(std::string_view text) {
-  constexpr std::array<std::string_view, 19> plain{
-      "Atoms", "Velocities", "Masses", "Bonds", "Angles", "Dihedrals", "Impropers", "Ellipsoids", "Lines", "Triangles", "Bodies",
-      "Atom Type Labels", "Bond Type Labels", "Angle Type Labels", "Dihedral Type Labels", "Improper Type Labels", "CS-Info",
-      "Fix", "Special Bonds"};
-  return text.ends_with("Coeffs") || std::find(plain.begin(), plain.end(), text) != plain.end();
-}
-
-struct Section {
-  Line heading{};
-  Cursor begin{}; // behind the heading
-};
-
 class LammpsDataSource : public Source {
 public:
-  explicit LammpsDataSource(std::shared_ptr<Bytes> bytes) : bytes_(std::move(bytes)) { warnings_.append(bytes_->warnings()); }
+  explicit LammpsDataSource(std::shared_ptr<Bytes> bytes) : bytes_(std::move(bytes)) {
+    warnings_.append(bytes_->warnings());
+  }
   std::string_view format() const override { return "lammps-data"; }
   std::uint64_t frame_count() override { return 1; }
 
   Frame read(std::uint64_t index) override {
-    if (index > 0) fail(Exit::BadInput, code::no_frame, {file()}, fmt::format("there is no frame {}: the file has 1 frame (0)", index));
-    if (sections_.empty()) look_through();
+    if (index > 0)
+      fail(Exit::BadInput, code::no_frame, {file()},
+           fmt::format("there is no frame {}: the file has 1 frame (0)", index));
+    if (file_.sections.empty()) file_ = find_lammps_sections(file(), bytes_->text());
     Frame frame;
-    frame.count = counts_["atoms"];
-    if (!title_.empty()) frame.properties.emplace_back("title", title_);
-    frame.box = box();
+    frame.count = file_.count("atoms");
+    if (!file_.title.empty()) frame.properties.emplace_back("title", file_.title);
+    frame.box = file_.box;
     read_atoms(frame);
     const auto rows = rows_of_ids(frame);
     read_types(frame);
@@ -67,76 +52,19 @@ private:
   using Rows = std::unordered_map<std::int64_t, std::uint64_t>;
   [[nodiscard]] const std::string& file() const { return bytes_->name(); }
 
-  void look_through() {
-    Cursor cursor(bytes_->text());
-    if (const auto first = cursor.next()) title_ = trim(first->text);
-    while (const auto line = cursor.next()) {
-      const std::size_t first = line->text.find_first_not_of(" \t");
-      if (first == std::string_view::npos || line->text[first] == '#') continue;
-      const char c = line->text[first];
-      const std::string_view text = sections_.empty() || c >= 'A' ? without_comment(line->text) : std::string_view{};
-      if (c >= 'A' && c <= 'Z' && is_section(text)) {
-        if (!sections_.try_emplace(std::string(text), Section{*line, cursor}).second)
-          fail(Exit::BadInput, code::heading, {file(), line->number}, fmt::format("there is a second section '{}'", text));
-      } else if (sections_.empty()) {
-        read_header_line(*line, text);
-      }
-    }
-    if (!sections_.contains("Atoms")) fail(Exit::BadInput, code::no_position, {file()}, "there is no section Atoms");
-    if (counts_["atoms"] == 0) fail(Exit::BadInput, code::heading, {file()}, "the number of atoms is missing or 0 ('N atoms')");
-  }
-
-  // "100 atoms", "2 atom types", "-1.5 1.5 xlo xhi", "0 0 0 xy xz yz"; other lines are not needed.
-  void read_header_line(const Line& line, std::string_view text) {
-    const std::vector<std::string_view> words = split_row(text, ' ');
-    auto value = [&](std::size_t k) {
-      double number = 0;
-      if (!parse_real(words[k], number) || !std::isfinite(number))
-        fail(Exit::BadInput, code::box, place_in(file(), line, words[k]), fmt::format("{} in the box is not a number", shown(words[k])));
-      return number;
-    };
-    constexpr std::string_view axes = "xyz";
-    for (int k = 0; k < 3; ++k)
-      if (words.size() == 4 && words[2] == fmt::format("{}lo", axes[static_cast<std::size_t>(k)])) {
-        low_[k] = value(0);
-        high_[k] = value(1);
-        if (!(high_[k] >= low_[k]))
-          fail(Exit::BadInput, code::box, {file(), line.number}, fmt::format("the box ends at {} before it begins at {}", high_[k], low_[k]));
-        return;
-      }
-    if (words.size() == 6 && words[3] == "xy") {
-      tilt_ = {value(0), value(1), value(2)};
-      return;
-    }
-    std::uint64_t count = 0;
-    if (words.size() < 2) return;
-    std::string key(words[1]);
-    if (words.size() == 3 && words[2] == "types") key += " types";
-    if (key != "atoms" && key != "bonds" && key != "atom types" && key != "ellipsoids") return;
-    if (!parse_count(words[0], count))
-      fail(Exit::BadInput, code::heading, place_in(file(), line, words[0]), fmt::format("the number of {} is {}", key, shown(words[0])));
-    counts_[key] = count;
-  }
-
-  [[nodiscard]] Box box() const {
-    Box out;
-    out.origin = low_;
-    const glm::dvec3 size = high_ - low_;
-    out.edges = glm::dmat3(size.x, 0, 0, tilt_.x, size.y, 0, tilt_.y, tilt_.z, size.z);
-    return out;
-  }
-
   // The first row of a section: its words without the comment.
   static std::vector<std::string_view> first_row(Cursor cursor) {
     while (const auto line = cursor.next())
-      if (const std::string_view text = without_comment(line->text); !text.empty()) return split_row(text, ' ');
+      if (const std::string_view text = without_comment(line->text); !text.empty())
+        return split_row(text, ' ');
     return {};
   }
 
-  const LammpsStyle& style_of(const Section& atoms, const std::vector<std::string_view>& words) {
+  const LammpsStyle& style_of(const LammpsSections::Section& atoms,
+                              const std::vector<std::string_view>& words) {
     std::string_view name = Words(comment_of(atoms.heading.text)).next();
-    if (const std::size_t at = title_.find("atom_style"); name.empty() && at != std::string::npos)
-      name = Words(std::string_view(title_).substr(at + 10)).next();
+    if (const std::size_t at = file_.title.find("atom_style"); name.empty() && at != std::string::npos)
+      name = Words(std::string_view(file_.title).substr(at + 10)).next();
     static constexpr LammpsStyle hybrid{"hybrid", "id type x y z"};
     if (name == "hybrid") return hybrid;
     if (const LammpsStyle* known = find_lammps_style(name)) return *known;
@@ -144,34 +72,42 @@ private:
     for (const LammpsStyle& style : lammps_styles()) names.emplace_back(style.name);
     const SourceLoc loc{file(), atoms.heading.number};
     if (!name.empty())
-      fail(Exit::BadInput, molecule_code::atom_style, loc, fmt::format("the atom style {} is not read", shown(name)),
+      fail(Exit::BadInput, molecule_code::atom_style, loc,
+           fmt::format("the atom style {} is not read", shown(name)),
            {did_you_mean(name, names), "styles: " + list_of(names)});
-    const LammpsStyle* guess = guess_lammps_style(words, counts_["bonds"] > 0, counts_["atom types"]);
+    const LammpsStyle* guess = guess_lammps_style(words, file_.count("bonds") > 0, file_.count("atom types"));
     if (!guess)
-      fail(Exit::BadInput, molecule_code::atom_style, loc, fmt::format("the atom style is not named, and rows of {} values suggest none", words.size()),
+      fail(Exit::BadInput, molecule_code::atom_style, loc,
+           fmt::format("the atom style is not named, and rows of {} values suggest none", words.size()),
            {"name it: 'Atoms # full'", "styles: " + list_of(names)});
-    warnings_.warning(molecule_code::guessed_style, loc,
-                      fmt::format("the atom style is not named; the first row suggests '{}' ({})", guess->name, guess->fields));
+    if (!warnings_.has(molecule_code::guessed_style))
+      warnings_.warning(molecule_code::guessed_style, loc,
+                        fmt::format("the atom style is not named; the first row suggests '{}' ({})",
+                                    guess->name, guess->fields));
     return *guess;
   }
 
   void read_atoms(Frame& frame) {
-    const Section& section = sections_.at("Atoms");
+    const LammpsSections::Section& section = file_.sections.at("Atoms");
     const std::vector<std::string_view> words = first_row(section.begin);
     const LammpsStyle& style = style_of(section, words);
     std::vector<Declared> declared;
     for (const std::string_view field : split_row(style.fields, ' ')) {
-      const bool whole = field == "id" || field == "mol" || field == "type" || field.ends_with("flag") || field.starts_with("template");
+      const bool whole = field == "id" || field == "mol" || field == "type" || field.ends_with("flag") ||
+                         field.starts_with("template");
       declared.push_back({std::string(field), 1, whole ? Cell::Integer : Cell::Real});
-      if (field == "type" && declared.size() <= words.size() && kind_of(words[declared.size() - 1]) == Cell::Text)
+      if (field == "type" && declared.size() <= words.size() &&
+          kind_of(words[declared.size() - 1]) == Cell::Text)
         declared.back().kind = Cell::Text; // type labels
     }
     const bool hybrid = style.name == "hybrid";
     const bool images = !hybrid && words.size() == declared.size() + 3;
-    if (!words.empty() && words.size() != declared.size() && !images && !(hybrid && words.size() > declared.size()))
+    if (!words.empty() && words.size() != declared.size() && !images &&
+        !(hybrid && words.size() > declared.size()))
       fail(Exit::BadInput, molecule_code::atom_style, {file(), section.heading.number},
-           fmt::format("rows of atom style '{}' have {} values ({}), perhaps with three image flags; the first row has {}", style.name,
-                       declared.size(), style.fields, words.size()));
+           fmt::format("rows of atom style '{}' have {} values ({}), perhaps with three image flags; the "
+                       "first row has {}",
+                       style.name, declared.size(), style.fields, words.size()));
     for (const char* flag : {"ix", "iy", "iz"})
       if (images) declared.push_back({flag, 1, Cell::Integer});
     RowLayout layout = plan_columns(declared, {});
@@ -180,7 +116,8 @@ private:
   }
 
   // `count` rows of a section; comments behind the values are no values.
-  std::vector<Column> rows_of(const Section& section, std::string_view name, std::uint64_t count, RowLayout& layout) {
+  std::vector<Column> rows_of(const LammpsSections::Section& section, std::string_view name,
+                              std::uint64_t count, RowLayout& layout) {
     layout.comment = '#';
     layout.skip_blank = layout.extra_allowed = true;
     const RowRange range = find_rows(section.begin, count, layout);
@@ -188,17 +125,23 @@ private:
       fail(Exit::BadInput, code::ends_early, {file(), range.end.line()},
            fmt::format("the file ends after {} of {} rows of the section {}", range.count, count, name));
     if (range.end.at_end() && !range.end.all().ends_with('\n') && !warnings_.has(molecule_code::last_line))
-      warnings_.warning(molecule_code::last_line, {file(), range.end.line() - 1}, "the last line has no line end and may be cut off");
+      warnings_.warning(molecule_code::last_line, {file(), range.end.line() - 1},
+                        "the last line has no line end and may be cut off");
     return parse_rows(file(), range, layout);
   }
-  std::vector<Column> rows_of(std::string_view name, std::uint64_t count, std::initializer_list<Declared> declared) {
-    const auto section = sections_.find(name);
-    if (section == sections_.end() || count == 0) return {};
+  std::vector<Column> rows_of(std::string_view name, std::uint64_t count,
+                              std::initializer_list<Declared> declared) {
+    const auto section = file_.sections.find(name);
+    if (section == file_.sections.end() || count == 0) return {};
     RowLayout layout = plan_columns(std::vector<Declared>(declared), {});
     return rows_of(section->second, name, count, layout);
   }
-  static const std::vector<std::int64_t>& integers(const Column& column) { return std::get<std::vector<std::int64_t>>(column.values); }
-  static const std::vector<double>& reals(const Column& column) { return std::get<std::vector<double>>(column.values); }
+  static const std::vector<std::int64_t>& integers(const Column& column) {
+    return std::get<std::vector<std::int64_t>>(column.values);
+  }
+  static const std::vector<double>& reals(const Column& column) {
+    return std::get<std::vector<double>>(column.values);
+  }
 
   Rows rows_of_ids(const Frame& frame) const {
     Rows rows;
@@ -206,24 +149,28 @@ private:
     const auto& ids = integers(*frame.find("id"));
     for (std::uint64_t row = 0; row < ids.size(); ++row)
       if (!rows.try_emplace(ids[row], row).second)
-        fail(Exit::BadInput, code::duplicate_id, {file(), sections_.at("Atoms").heading.number}, fmt::format("two atoms have the id {}", ids[row]));
+        fail(Exit::BadInput, code::duplicate_id, {file(), file_.sections.at("Atoms").heading.number},
+             fmt::format("two atoms have the id {}", ids[row]));
     return rows;
   }
-  std::uint64_t row_of(const Rows& rows, std::int64_t id, std::string_view section, std::string_view code_word) const {
+  std::uint64_t row_of(const Rows& rows, std::int64_t id, std::string_view section,
+                       std::string_view code_word) const {
     const auto found = rows.find(id);
     if (found != rows.end()) return found->second;
-    fail(Exit::BadInput, code_word, {file(), sections_.find(section)->second.heading.number},
+    fail(Exit::BadInput, code_word, {file(), file_.sections.find(section)->second.heading.number},
          fmt::format("the section {} names atom {}, which is not there", section, id));
   }
 
   // Masses and labels of types -> the columns mass and element, where they are not in the rows.
   void read_types(Frame& frame) {
-    const std::uint64_t types = counts_["atom types"];
-    const std::vector<Column> masses = rows_of("Masses", types, {{"type", 1, Cell::Text}, {"mass", 1, Cell::Real}});
-    const std::vector<Column> labels = rows_of("Atom Type Labels", types, {{"id", 1, Cell::Text}, {"label", 1, Cell::Text}});
+    const std::uint64_t types = file_.count("atom types");
+    const std::vector<Column> masses =
+        rows_of("Masses", types, {{"type", 1, Cell::Text}, {"mass", 1, Cell::Real}});
+    const std::vector<Column> labels =
+        rows_of("Atom Type Labels", types, {{"id", 1, Cell::Text}, {"label", 1, Cell::Text}});
     std::map<std::string, double> mass_of;
     std::map<std::string, std::string> label_of;
-    Cursor cursor = masses.empty() ? Cursor() : sections_.at("Masses").begin;
+    Cursor cursor = masses.empty() ? Cursor() : file_.sections.at("Masses").begin;
     for (std::uint64_t row = 0; !masses.empty() && row < types;) {
       const auto line = cursor.next();
       if (!line) break;
@@ -233,20 +180,23 @@ private:
       label_of[type] = Words(comment_of(line->text)).next();
     }
     for (std::uint64_t row = 0; !labels.empty() && row < types; ++row)
-      label_of[std::get<TextColumn>(labels[0].values).at(row)] = std::get<TextColumn>(labels[1].values).at(row);
+      label_of[std::get<TextColumn>(labels[0].values).at(row)] =
+          std::get<TextColumn>(labels[1].values).at(row);
     const Column* type = frame.find("type");
     if (!type || mass_of.empty()) return;
     Labels elements;
     std::vector<double> mass;
     bool all_elements = true;
     std::map<std::string, std::string_view, std::less<>> symbol_of;
-    for (const auto& [name, value] : mass_of) symbol_of[name] = element_of_type(label_of[name].empty() ? name : label_of[name], value);
+    for (const auto& [name, value] : mass_of)
+      symbol_of[name] = element_of_type(label_of[name].empty() ? name : label_of[name], value);
     for (std::uint64_t row = 0; row < frame.count; ++row) {
       const auto* text = std::get_if<TextColumn>(&type->values);
       const std::string key = text ? text->at(row) : fmt::format("{}", integers(*type)[row]);
       const auto found = mass_of.find(key);
       if (found == mass_of.end())
-        fail(Exit::BadInput, molecule_code::count, {file(), sections_.at("Masses").heading.number}, fmt::format("an atom has type {}, which has no mass", shown(key)));
+        fail(Exit::BadInput, molecule_code::count, {file(), file_.sections.at("Masses").heading.number},
+             fmt::format("an atom has type {}, which has no mass", shown(key)));
       mass.push_back(found->second);
       all_elements = all_elements && !symbol_of[key].empty();
       if (all_elements) elements.add(symbol_of[key]);
@@ -265,8 +215,9 @@ private:
   }
 
   void read_velocities(Frame& frame, const Rows& rows) {
-    const std::vector<Column> in =
-        rows_of("Velocities", frame.count, {{"id", 1, Cell::Integer}, {"vx", 1, Cell::Real}, {"vy", 1, Cell::Real}, {"vz", 1, Cell::Real}});
+    const std::vector<Column> in = rows_of(
+        "Velocities", frame.count,
+        {{"id", 1, Cell::Integer}, {"vx", 1, Cell::Real}, {"vy", 1, Cell::Real}, {"vz", 1, Cell::Real}});
     if (in.empty()) return;
     std::vector<double> out(3 * frame.count, 0.0);
     for (std::uint64_t i = 0; i < frame.count; ++i) {
@@ -278,10 +229,16 @@ private:
 
   // Full axes (halved here) and quaternions w i j k; atoms without a row are points.
   void read_ellipsoids(Frame& frame, const Rows& rows) {
-    const std::uint64_t count = counts_["ellipsoids"];
+    const std::uint64_t count = file_.count("ellipsoids");
     const std::vector<Column> in = rows_of("Ellipsoids", count,
-                                           {{"id", 1, Cell::Integer}, {"sx", 1, Cell::Real}, {"sy", 1, Cell::Real}, {"sz", 1, Cell::Real},
-                                            {"quatw", 1, Cell::Real}, {"quati", 1, Cell::Real}, {"quatj", 1, Cell::Real}, {"quatk", 1, Cell::Real}});
+                                           {{"id", 1, Cell::Integer},
+                                            {"sx", 1, Cell::Real},
+                                            {"sy", 1, Cell::Real},
+                                            {"sz", 1, Cell::Real},
+                                            {"quatw", 1, Cell::Real},
+                                            {"quati", 1, Cell::Real},
+                                            {"quatj", 1, Cell::Real},
+                                            {"quatk", 1, Cell::Real}});
     if (in.empty()) return;
     std::vector<double> shape(3 * frame.count, 0.0), orientation(4 * frame.count, 0.0);
     for (std::uint64_t row = 0; row < frame.count; ++row) orientation[4 * row] = 1;
@@ -295,14 +252,20 @@ private:
   }
 
   void read_bonds(Frame& frame, const Rows& rows) {
-    const std::uint64_t count = counts_["bonds"];
-    if (count > 0 && !sections_.contains("Bonds"))
-      fail(Exit::BadInput, code::ends_early, {file()}, fmt::format("{} bonds are promised, but there is no section Bonds", count));
-    std::vector<Column> in = rows_of("Bonds", count, {{"number", 1, Cell::Integer}, {"kind", 1, Cell::Integer, true}, {"a", 1, Cell::Integer}, {"b", 1, Cell::Integer}});
+    const std::uint64_t count = file_.count("bonds");
+    if (count > 0 && !file_.sections.contains("Bonds"))
+      fail(Exit::BadInput, code::ends_early, {file()},
+           fmt::format("{} bonds are promised, but there is no section Bonds", count));
+    std::vector<Column> in = rows_of("Bonds", count,
+                                     {{"number", 1, Cell::Integer},
+                                      {"kind", 1, Cell::Integer, true},
+                                      {"a", 1, Cell::Integer},
+                                      {"b", 1, Cell::Integer}});
     if (in.empty()) return;
     BondList bonds;
     for (std::uint64_t i = 0; i < count; ++i) {
-      const std::uint64_t a = row_of(rows, integers(in[2])[i], "Bonds", molecule_code::bond), b = row_of(rows, integers(in[3])[i], "Bonds", molecule_code::bond);
+      const std::uint64_t a = row_of(rows, integers(in[2])[i], "Bonds", molecule_code::bond),
+                          b = row_of(rows, integers(in[3])[i], "Bonds", molecule_code::bond);
       const auto* types = std::get_if<std::vector<std::int64_t>>(&in[1].values); // labels have no number
       bonds.add(a, b, types ? (*types)[i] : 0);
     }
@@ -310,10 +273,7 @@ private:
   }
 
   std::shared_ptr<Bytes> bytes_;
-  std::string title_{};
-  std::map<std::string, std::uint64_t> counts_{};
-  std::map<std::string, Section, std::less<>> sections_{};
-  glm::dvec3 low_{-0.5}, high_{0.5}, tilt_{0.0};
+  LammpsSections file_{};
 };
 
 // A line "N atoms" and a line "lo hi xlo xhi" before the first section.
@@ -338,7 +298,9 @@ Sureness probe(const Probe& file) {
 Reader lammps_data_reader() {
   return {{"lammps-data", "LAMMPS data file", "data lmp lammps"},
           probe,
-          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> { return std::make_unique<LammpsDataSource>(std::move(bytes)); }};
+          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
+            return std::make_unique<LammpsDataSource>(std::move(bytes));
+          }};
 }
 
 } // namespace mote::data

@@ -9,6 +9,7 @@
 #include "core/data/names.hpp"
 #include "core/data/netcdf.hpp"
 #include "core/data/registry.hpp"
+#include "core/data/text.hpp"
 
 #include <fmt/format.h>
 
@@ -18,27 +19,34 @@ namespace mote::data {
 namespace {
 
 std::string short_unit(std::string unit) {
-  for (const std::string_view word : {"angstrom", "picosecond"}) {
+  for (const auto& [word, symbol] : {std::pair<std::string_view, std::string_view>{"angstrom", "A"},
+                                     {"picosecond", "ps"},
+                                     {"femtosecond", "fs"}}) {
     const std::size_t at = lower(unit).find(word);
     if (at == std::string::npos) continue;
-    const std::size_t plural = at + word.size() < unit.size() && (unit[at + word.size()] | 0x20) == 's' ? 1 : 0;
-    unit.replace(at, word.size() + plural, word == "angstrom" ? "A" : "ps");
+    const std::size_t plural =
+        at + word.size() < unit.size() && (unit[at + word.size()] | 0x20) == 's' ? 1 : 0;
+    unit.replace(at, word.size() + plural, symbol);
   }
   return unit;
 }
 
 class NetcdfSource : public BinarySource {
 public:
-  explicit NetcdfSource(std::shared_ptr<Bytes> bytes) : BinarySource(std::move(bytes)), header_(read_netcdf_header(this->bytes())) {
+  explicit NetcdfSource(std::shared_ptr<Bytes> bytes)
+      : BinarySource(std::move(bytes)), header_(read_netcdf_header(this->bytes())) {
     positions_ = header_.find("coordinates");
     if (!positions_) {
       std::vector<std::string> names;
       for (const NcVariable& v : header_.variables) names.push_back(v.name);
-      reader(Order::Big).refuse_at(0, code::no_position, "the file has no variable 'coordinates' (AMBER convention)",
-                                   {"variables: " + list_of(names)});
+      reader(Order::Big)
+          .refuse_at(0, code::no_position, "the file has no variable 'coordinates' (AMBER convention)",
+                     {"variables: " + list_of(names)});
     }
     if (per_atom(*positions_) != 3)
-      reader(Order::Big).refuse_at(0, molecule_code::variant, "the variable 'coordinates' is not one of (frame, atom, spatial) or (atom, spatial)");
+      reader(Order::Big)
+          .refuse_at(0, molecule_code::variant,
+                     "the variable 'coordinates' is not one of (frame, atom, spatial) or (atom, spatial)");
     atom_dimension_ = positions_->dimensions[positions_->record ? 1 : 0];
     atoms_ = header_.dimensions[atom_dimension_].length;
     if (atoms_ == 0) reader(Order::Big).refuse_at(0, molecule_code::count, "the number of atoms is 0");
@@ -53,12 +61,15 @@ public:
     frame.count = atoms_;
     frame.box = box_of(index);
     if (const NcVariable* time = header_.find("time"); time && time->values == 1 && usable(*time, index)) {
-      frame.time = netcdf_number(bytes(), header_, *time, index, 0) * time->number("scale_factor").value_or(1.0);
-      if (const std::string unit = short_unit(time->text("units")); !unit.empty()) frame.properties.emplace_back("time_unit", unit);
+      frame.time =
+          netcdf_number(bytes(), header_, *time, index, 0) * time->number("scale_factor").value_or(1.0);
+      if (const std::string unit = short_unit(time->text("units")); !unit.empty())
+        frame.properties.emplace_back("time_unit", unit);
     }
     for (const NcVariable& v : header_.variables) add(v, index, frame);
     for (const std::string_view key : {"title", "program"})
-      if (std::string text = header_.text(key); !text.empty()) frame.properties.emplace_back(key, std::move(text));
+      if (std::string text = header_.text(key); !text.empty())
+        frame.properties.emplace_back(key, std::move(text));
     return frame;
   }
 
@@ -67,10 +78,12 @@ private:
   [[nodiscard]] std::uint64_t per_atom(const NcVariable& v) const {
     const std::size_t first = v.record ? 1 : 0;
     if (v.type == NcType::Char || v.dimensions.size() <= first || v.dimensions.size() > first + 3) return 0;
-    const bool mine = positions_ == &v ? header_.dimensions[v.dimensions[first]].length > 0 : v.dimensions[first] == atom_dimension_;
+    const bool mine = positions_ == &v ? header_.dimensions[v.dimensions[first]].length > 0
+                                       : v.dimensions[first] == atom_dimension_;
     if (!mine) return 0;
     std::uint64_t count = 1;
-    for (std::size_t k = first + 1; k < v.dimensions.size(); ++k) count *= header_.dimensions[v.dimensions[k]].length;
+    for (std::size_t k = first + 1; k < v.dimensions.size(); ++k)
+      count *= header_.dimensions[v.dimensions[k]].length;
     return count <= max_fields ? count : 0;
   }
 
@@ -89,8 +102,16 @@ private:
     }
     if (!positions_->record || header_.stated_records == ~std::uint64_t{0}) return;
     if (header_.stated_records > frames_)
-      warnings_.warning(molecule_code::header_count, byte_place(bytes(), 4),
-                        fmt::format("the header promises {} frames, but the file has {}", header_.stated_records, frames_));
+      warnings_.warning(
+          molecule_code::header_count, byte_place(bytes(), 4),
+          fmt::format("the header promises {} frames, but the file has {}", header_.stated_records, frames_));
+  }
+
+  // The convention fixes A for positions where the file names no unit.
+  [[nodiscard]] std::string unit_of(const NcVariable& v) const {
+    std::string unit = short_unit(v.text("units"));
+    const bool amber = lower(header_.text("Conventions")).find("amber") != std::string::npos;
+    return unit.empty() && &v == positions_ && amber ? "A" : unit;
   }
 
   void add(const NcVariable& v, std::uint64_t index, Frame& frame) const {
@@ -102,11 +123,15 @@ private:
     if (frame.find(name)) name = v.name;
     const double scale = v.number("scale_factor").value_or(1.0);
     std::vector<double> values = netcdf_reals(bytes(), header_, v, index, scale);
-    const bool whole = v.type != NcType::Float && v.type != NcType::Double && scale == 1.0 && name != "position";
-    if (whole)
-      frame.columns.push_back(int_column(std::move(name), std::vector<std::int64_t>(values.begin(), values.end()), components));
-    else
-      frame.columns.push_back(real_column(std::move(name), components, std::move(values), short_unit(v.text("units"))));
+    const bool whole =
+        v.type != NcType::Float && v.type != NcType::Double && scale == 1.0 && name != "position";
+    if (whole) {
+      std::vector<std::int64_t> numbers(values.size());
+      std::transform(values.begin(), values.end(), numbers.begin(), whole_number);
+      frame.columns.push_back(int_column(std::move(name), std::move(numbers), components));
+      return;
+    }
+    frame.columns.push_back(real_column(std::move(name), components, std::move(values), unit_of(v)));
   }
 
   [[nodiscard]] std::optional<Box> box_of(std::uint64_t index) const {
@@ -117,8 +142,11 @@ private:
     glm::dvec3 edge(0), angle(90);
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<std::uint64_t>(k);
-      edge[k] = netcdf_number(bytes(), header_, *lengths, index, at) * lengths->number("scale_factor").value_or(1.0);
-      if (has_angles) angle[k] = netcdf_number(bytes(), header_, *angles, index, at) * angles->number("scale_factor").value_or(1.0);
+      edge[k] = netcdf_number(bytes(), header_, *lengths, index, at) *
+                lengths->number("scale_factor").value_or(1.0);
+      if (has_angles)
+        angle[k] = netcdf_number(bytes(), header_, *angles, index, at) *
+                   angles->number("scale_factor").value_or(1.0);
     }
     std::optional<Box> box = cell_box(edge, angle);
     const NcVariable* origin = header_.find("cell_origin"); // LAMMPS
@@ -143,7 +171,9 @@ Sureness probe(const Probe& file) {
 Reader netcdf_reader() {
   return {{"netcdf", "AMBER trajectory or restart in classic NetCDF", "nc ncdf ncrst"},
           probe,
-          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> { return std::make_unique<NetcdfSource>(std::move(bytes)); }};
+          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
+            return std::make_unique<NetcdfSource>(std::move(bytes));
+          }};
 }
 
 } // namespace mote::data

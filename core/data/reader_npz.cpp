@@ -42,22 +42,32 @@ struct Array {
 Array read_array(const Bytes& archive, const ZipMember& member) {
   Array out;
   out.name = member.name.substr(0, member.name.size() - 4);
-  const auto bytes = Bytes::from_memory(fmt::format("{}:{}", archive.name(), member.name), unzip(archive, member));
-  if (!bytes->view().starts_with(npy_magic)) fail(Exit::BadInput, code::npy_header, byte_place(*bytes, 0), "the member is no .npy array");
+  const auto bytes =
+      Bytes::from_memory(fmt::format("{}:{}", archive.name(), member.name), unzip(archive, member));
+  if (!bytes->view().starts_with(npy_magic))
+    fail(Exit::BadInput, code::npy_header, byte_place(*bytes, 0), "the member is no .npy array");
   const NpyHeader header = parse_npy_header(*bytes);
   out.shape = header.shape;
   const std::uint64_t rows = header.shape.empty() ? 1 : header.shape[0];
   std::uint64_t width = 1;
   for (std::size_t d = 1; d < header.shape.size(); ++d) width = times(width, header.shape[d]);
   const std::string_view values = bytes->view().substr(header.data_begin);
-  need_bytes(times(times(rows, width), header.item_size), values.size(), byte_place(*bytes, bytes->view().size()), fmt::format("the array {}", shown(out.name)));
+  need_bytes(times(times(rows, width), header.item_size), values.size(),
+             byte_place(*bytes, bytes->view().size()), fmt::format("the array {}", shown(out.name)));
   if (width == 0 || width > max_fields || (header.structured && width != 1)) return out; // left out
   for (const NpyField& field : header.fields) {
     const auto components = static_cast<std::uint32_t>(header.structured ? field.components : width);
     const Order order = field.scalar.big_endian ? Order::Big : Order::Little;
-    Column column = unpack(header.structured ? field.name : out.name, rows ? values.substr(field.offset) : values, {scalar_of(field.scalar), order, rows, components, header.item_size * width});
+    Column column =
+        unpack(header.structured ? field.name : out.name, rows ? values.substr(field.offset) : values,
+               {scalar_of(field.scalar), order, rows, components, header.item_size * width});
     if (header.fortran_order && width > 1)
-      std::visit([&](auto& held) { if constexpr (!std::is_same_v<std::decay_t<decltype(held)>, TextColumn>) to_rows(held, rows, components); }, column.values);
+      std::visit(
+          [&](auto& held) {
+            if constexpr (!std::is_same_v<std::decay_t<decltype(held)>, TextColumn>)
+              to_rows(held, rows, components);
+          },
+          column.values);
     out.columns.push_back(std::move(column));
   }
   return out;
@@ -69,9 +79,12 @@ bool describes_frame(const Array& array, Frame& frame) {
   const Column& column = array.columns[0];
   const std::string name = lower(array.name);
   if (column.rows() == 1 && column.components == 1) {
-    if (name == "time") frame.time = column.number(0);
-    else if (name == "step" || name == "timestep") frame.step = static_cast<std::int64_t>(std::clamp(column.number(0), -9e15, 9e15));
-    else return false;
+    if (name == "time")
+      frame.time = column.number(0);
+    else if ((name == "step" || name == "timestep") && column.type() == ColumnType::Int)
+      frame.step = std::get<std::vector<std::int64_t>>(column.values)[0];
+    else
+      return false;
     return true;
   }
   if ((name != "box" && name != "cell" && name != "lattice") || column.rows() != 3) return false;
@@ -79,13 +92,16 @@ bool describes_frame(const Array& array, Frame& frame) {
   Box box;
   for (std::uint32_t v = 0; v < 3; ++v)
     for (std::uint32_t k = 0; k < 3; ++k)
-      box.edges[static_cast<int>(v)][static_cast<int>(k)] = column.components == 3 ? column.number(v, k) : v == k ? column.number(v) : 0.0;
+      box.edges[static_cast<int>(v)][static_cast<int>(k)] = column.components == 3 ? column.number(v, k)
+                                                            : v == k               ? column.number(v)
+                                                                                   : 0.0;
   frame.box = box;
   return true;
 }
 
 bool is_position(const Column& column) {
-  return canonical_name(column.name, column.components) == "position" || (column.components == 1 && same_word(column.name, "x"));
+  return canonical_name(column.name, column.components) == "position" ||
+         (column.components == 1 && same_word(column.name, "x"));
 }
 
 Frame parse_npz(Bytes& bytes, Diagnostics& warnings) {
@@ -99,7 +115,8 @@ Frame parse_npz(Bytes& bytes, Diagnostics& warnings) {
     }
     Array array = read_array(bytes, member);
     if (describes_frame(array, frame)) continue;
-    if (array.columns.empty() || array.shape.empty()) left.push_back(array.name);
+    if (array.columns.empty() || array.shape.empty())
+      left.push_back(array.name);
     else
       for (Column& column : array.columns) columns.push_back(std::move(column));
   }
@@ -109,8 +126,11 @@ Frame parse_npz(Bytes& bytes, Diagnostics& warnings) {
     position = std::find_if(columns.begin(), columns.end(), three);
     if (position == columns.end() || std::count_if(columns.begin(), columns.end(), three) != 1) {
       std::vector<std::string> names;
-      for (const Column& c : columns) names.push_back(c.components == 1 ? c.name : fmt::format("{}({})", c.name, c.components));
-      fail(Exit::BadInput, code::no_position, {bytes.name()}, "no array gives the position: one of shape (N, 3) with the name 'position', or x, y and z", {"the file has: " + list_of(names)});
+      for (const Column& c : columns)
+        names.push_back(c.components == 1 ? c.name : fmt::format("{}({})", c.name, c.components));
+      fail(Exit::BadInput, code::no_position, {bytes.name()},
+           "no array gives the position: one of shape (N, 3) with the name 'position', or x, y and z",
+           {"the file has: " + list_of(names)});
     }
     position->name = "position";
   }
@@ -119,7 +139,9 @@ Frame parse_npz(Bytes& bytes, Diagnostics& warnings) {
     if (c.rows() != rows) left.push_back(c.name);
     return c.rows() != rows;
   });
-  if (!left.empty()) warnings.note(field_code::left_out, {bytes.name()}, fmt::format("arrays of another length than '{}' are left out: {}", rows, list_of(left)));
+  if (!left.empty())
+    warnings.note(field_code::left_out, {bytes.name()},
+                  fmt::format("arrays of another length than '{}' are left out: {}", rows, list_of(left)));
   assemble(frame, std::move(columns), {}, {bytes.name()});
   return frame;
 }

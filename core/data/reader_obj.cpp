@@ -16,10 +16,13 @@
 namespace mote::data {
 namespace {
 
-constexpr std::string_view keywords = " v vn vt vp f fo l p o g s mtllib usemtl usemap maplib cstype deg bmat step "
-                                      "curv curv2 surf parm trim hole scrv sp end con mg bevel c_interp d_interp lod "
-                                      "shadow_obj trace_obj ctech stech call csh # ";
-bool is_keyword(std::string_view word) { return keywords.find(fmt::format(" {} ", word)) != std::string_view::npos; }
+constexpr std::string_view keywords =
+    " v vn vt vp f fo l p o g s mtllib usemtl usemap maplib cstype deg bmat step "
+    "curv curv2 surf parm trim hole scrv sp end con mg bevel c_interp d_interp lod "
+    "shadow_obj trace_obj ctech stech call csh # ";
+bool is_keyword(std::string_view word) {
+  return keywords.find(fmt::format(" {} ", word)) != std::string_view::npos;
+}
 
 class Obj {
 public:
@@ -31,12 +34,17 @@ public:
       Words words(line_.text);
       const std::string_view word = words.next();
       if (word.empty() || word.starts_with('#')) continue;
-      if (word == "v") vertex(words);
-      else if (word == "vn") normal(words);
-      else if (word == "f" && !normals_.empty()) face(words);
-      else if (!is_keyword(word)) refuse(code::heading, word, fmt::format("{} is no word of an .obj file", shown(word)));
+      if (word == "v")
+        vertex(words);
+      else if (word == "vn")
+        normal(words);
+      else if (word == "f" && !normals_.empty())
+        face(words);
+      else if (!is_keyword(word))
+        refuse(code::heading, word, fmt::format("{} is no word of an .obj file", shown(word)));
     }
-    if (points_.empty()) fail(Exit::BadInput, code::no_position, {file_}, "the file has no vertices ('v x y z')");
+    if (points_.empty())
+      fail(Exit::BadInput, code::no_position, {file_}, "the file has no vertices ('v x y z')");
     std::vector<Column> arrays{position_column(std::move(points_))};
     const std::uint64_t rows = arrays.front().rows();
     if (corners_with_normals_ == 0 && normals_.size() == rows * 3) {
@@ -61,10 +69,12 @@ private:
     std::size_t count = 0;
     for (std::string_view word = words.next(); !word.empty() && !word.starts_with('#'); word = words.next()) {
       if (count == most) refuse(code::too_many, word, fmt::format("the line has more than {} numbers", most));
-      if (!parse_real(word, out[count])) refuse(code::not_a_value, word, fmt::format("a coordinate is not a number: {}", shown(word)));
+      if (!parse_real(word, out[count]))
+        refuse(code::not_a_value, word, fmt::format("a coordinate is not a number: {}", shown(word)));
       ++count;
     }
-    if (count < 3) refuse(code::too_few, line_.text, fmt::format("the line has {} numbers instead of 3", count));
+    if (count < 3)
+      refuse(code::too_few, line_.text, fmt::format("the line has {} numbers instead of 3", count));
     return count;
   }
   void vertex(Words& words) {
@@ -82,10 +92,13 @@ private:
   // From 1, or from -1 backwards; the answer is from 0.
   std::uint64_t index(std::string_view word, std::uint64_t there, std::string_view what) const {
     std::int64_t value = 0;
-    if (!parse_integer(word, value)) refuse(code::not_a_value, word, fmt::format("the index of a {} is not an integer: {}", what, shown(word)));
+    if (!parse_integer(word, value))
+      refuse(code::not_a_value, word,
+             fmt::format("the index of a {} is not an integer: {}", what, shown(word)));
     const std::int64_t from_zero = value > 0 ? value - 1 : static_cast<std::int64_t>(there) + value;
     if (value == 0 || from_zero < 0 || from_zero >= static_cast<std::int64_t>(there))
-      refuse(field_code::index, word, fmt::format("the face names {} {}, but there are {} so far", what, shown(word), there));
+      refuse(field_code::index, word,
+             fmt::format("the face names {} {}, but there are {} so far", what, shown(word), there));
     return static_cast<std::uint64_t>(from_zero);
   }
   // v, v/vt, v//vn or v/vt/vn
@@ -114,7 +127,10 @@ private:
   std::uint64_t corners_{}, corners_with_normals_{};
 };
 
-Frame parse_obj(Bytes& bytes, Diagnostics&) { return Obj(bytes).read(); }
+Frame parse_obj(Bytes& bytes, Diagnostics& warnings) {
+  check_last_line(bytes, warnings);
+  return Obj(bytes).read();
+}
 
 // All complete lines of the beginning start with a keyword, and there is a vertex or a face among them.
 Sureness probe_obj(const Probe& probe) {

@@ -28,14 +28,17 @@ OffKind kind_of_off(std::string_view word) {
 
 class Off {
 public:
-  Off(Bytes& bytes, Diagnostics& warnings) : file_(bytes.name()), cursor_(bytes.text()), warnings_(warnings) {}
+  Off(Bytes& bytes, Diagnostics& warnings)
+      : file_(bytes.name()), cursor_(bytes.text()), warnings_(warnings) {}
 
   Frame read() {
     next_line("the first line");
     Words words(line_.text);
     std::string_view word = words.next();
     const OffKind kind = kind_of_off(word);
-    if (!kind.known) refuse(field_code::variant, word, fmt::format("the kind {} of OFF cannot be read", shown(word)), {"readable: OFF with any of ST, C, N in front"});
+    if (!kind.known)
+      refuse(field_code::variant, word, fmt::format("the kind {} of OFF cannot be read", shown(word)),
+             {"readable: OFF with any of ST, C, N in front"});
     word = words.next();
     if (same_word(word, "BINARY")) refuse(field_code::variant, word, "binary OFF cannot be read");
     if (word.empty() || word.starts_with('#')) {
@@ -46,7 +49,9 @@ public:
     const std::uint64_t vertices = count(word, "vertices");
     const std::uint64_t faces = count(words.next(), "faces");
     if (times(vertices, 6) > cursor_.rest().size() + 2 || times(faces, 2) > cursor_.rest().size())
-      refuse(code::ends_early, line_.text, fmt::format("the file ends early: {} vertices and {} faces are announced, but {} bytes are left", vertices, faces, cursor_.rest().size()));
+      refuse(code::ends_early, line_.text,
+             fmt::format("the file ends early: {} vertices and {} faces are announced, but {} bytes are left",
+                         vertices, faces, cursor_.rest().size()));
     for (std::uint64_t v = 0; v < vertices; ++v) vertex(kind, v, vertices);
     for (std::uint64_t f = 0; f < faces; ++f) face(f, faces);
     while (const auto more = cursor_.next()) {
@@ -58,7 +63,8 @@ public:
   }
 
 private:
-  [[noreturn]] void refuse(std::string_view code, std::string_view part, std::string text, std::vector<std::string> hints = {}) const {
+  [[noreturn]] void refuse(std::string_view code, std::string_view part, std::string text,
+                           std::vector<std::string> hints = {}) const {
     fail(Exit::BadInput, code, place_in(file_, line_, part), std::move(text), std::move(hints));
   }
   void next_line(std::string_view what) {
@@ -67,11 +73,14 @@ private:
       const std::string_view inner = trim(line->text);
       if (!inner.empty() && !inner.starts_with('#')) return;
     }
-    fail(Exit::BadInput, code::ends_early, {file_, cursor_.line()}, fmt::format("the file ends early: {} is missing", what));
+    fail(Exit::BadInput, code::ends_early, {file_, cursor_.line()},
+         fmt::format("the file ends early: {} is missing", what));
   }
   std::uint64_t count(std::string_view word, std::string_view what) const {
     std::uint64_t value = 0;
-    if (!parse_count(word, value)) refuse(code::heading, word.empty() ? line_.text : word, fmt::format("the number of {} is not a count: {}", what, shown(word)));
+    if (!parse_count(word, value))
+      refuse(code::heading, word.empty() ? line_.text : word,
+             fmt::format("the number of {} is not a count: {}", what, shown(word)));
     return value;
   }
   void vertex(const OffKind& kind, std::uint64_t v, std::uint64_t vertices) {
@@ -81,11 +90,14 @@ private:
     Words words(line_.text);
     for (std::string_view word = words.next(); !word.empty() && !word.starts_with('#'); word = words.next()) {
       if (have == values.size()) refuse(code::too_many, word, "the vertex has too many numbers");
-      if (!parse_real(word, values[have])) refuse(code::not_a_value, word, fmt::format("a coordinate is not a number: {}", shown(word)));
+      if (!parse_real(word, values[have]))
+        refuse(code::not_a_value, word, fmt::format("a coordinate is not a number: {}", shown(word)));
       ++have;
     }
-    const std::size_t least = 3u + (kind.normal ? 3u : 0u) + (kind.color ? 3u : 0u) + (kind.texture ? 2u : 0u);
-    if (have < least) refuse(code::too_few, line_.text, fmt::format("the vertex has {} numbers instead of {}", have, least));
+    const std::size_t least =
+        3u + (kind.normal ? 3u : 0u) + (kind.color ? 3u : 0u) + (kind.texture ? 2u : 0u);
+    if (have < least)
+      refuse(code::too_few, line_.text, fmt::format("the vertex has {} numbers instead of {}", have, least));
     points_.insert(points_.end(), values.begin(), values.begin() + 3);
     std::ptrdiff_t at = 3;
     if (kind.normal) {
@@ -100,16 +112,20 @@ private:
     const std::uint64_t corners = count(words.next(), "corners of a face");
     for (std::uint64_t c = 0; c < corners; ++c) {
       const std::string_view word = words.next();
-      if (word.empty()) refuse(code::too_few, line_.text, fmt::format("the face has {} corners of {}", c, corners));
+      if (word.empty())
+        refuse(code::too_few, line_.text, fmt::format("the face has {} corners of {}", c, corners));
       std::uint64_t index = 0;
       if (!parse_count(word, index) || index >= points_.size() / 3)
-        refuse(field_code::index, word, fmt::format("the face names vertex {}, but there are {}", shown(word), points_.size() / 3));
+        refuse(field_code::index, word,
+               fmt::format("the face names vertex {}, but there are {}", shown(word), points_.size() / 3));
     }
   }
   Frame finish(std::uint64_t vertices) {
     std::vector<Column> arrays{position_column(std::move(points_))};
-    if (normals_.size() == vertices * 3 && vertices > 0) arrays.push_back({"normal", 3, std::move(normals_), {}});
-    if (colors_.size() == vertices * 3 && vertices > 0) arrays.push_back({"color", 3, std::move(colors_), {}});
+    if (normals_.size() == vertices * 3 && vertices > 0)
+      arrays.push_back({"normal", 3, std::move(normals_), {}});
+    if (colors_.size() == vertices * 3 && vertices > 0)
+      arrays.push_back({"color", 3, std::move(colors_), {}});
     Frame frame;
     assemble(frame, std::move(arrays), {}, {file_});
     return frame;
@@ -122,7 +138,10 @@ private:
   std::vector<double> points_{}, normals_{}, colors_{};
 };
 
-Frame parse_off(Bytes& bytes, Diagnostics& warnings) { return Off(bytes, warnings).read(); }
+Frame parse_off(Bytes& bytes, Diagnostics& warnings) {
+  check_last_line(bytes, warnings);
+  return Off(bytes, warnings).read();
+}
 
 Sureness probe_off(const Probe& probe) {
   Cursor cursor(probe.head.substr(0, 4096));

@@ -23,14 +23,17 @@ struct Entry {
 
 class Ovf {
 public:
-  Ovf(Bytes& bytes, Diagnostics& warnings) : file_(bytes.name()), scan_(file_, bytes.view()), warnings_(warnings) {}
+  Ovf(Bytes& bytes, Diagnostics& warnings)
+      : file_(bytes.name()), scan_(file_, bytes.view()), warnings_(warnings) {}
 
   Frame read() {
     read_version();
     read_header();
     const bool irregular = lower(text("meshtype", "rectangular")) == "irregular";
     if (!irregular && lower(text("meshtype", "rectangular")) != "rectangular")
-      refuse("meshtype", field_code::part, fmt::format("the meshtype {} is unknown", shown(text("meshtype", ""))), {"known: rectangular, irregular"});
+      refuse("meshtype", field_code::part,
+             fmt::format("the meshtype {} is unknown", shown(text("meshtype", ""))),
+             {"known: rectangular, irregular"});
     ImageGrid grid;
     std::uint64_t rows = 0;
     if (irregular) {
@@ -38,14 +41,17 @@ public:
     } else {
       read_grid(grid);
       rows = grid.size.points();
-      need_memory(times(rows, 6 * sizeof(double)), scan_.place(), fmt::format("the {} points and their values", grid.size.text()));
+      need_memory(times(rows, 6 * sizeof(double)), scan_.place(),
+                  fmt::format("the {} points and their values", grid.size.text()));
     }
     const std::uint32_t values = value_count();
     std::vector<Column> arrays;
     Column data = read_data(rows, values + (irregular ? 3 : 0));
     std::uint32_t used = 0;
-    if (irregular) arrays.push_back(split(data, used, 3, "position"));
-    else arrays.push_back(position_column(image_points(grid, false, scan_.place())));
+    if (irregular)
+      arrays.push_back(split(data, used, 3, "position"));
+    else
+      arrays.push_back(position_column(image_points(grid, false, scan_.place())));
     arrays.front().unit = text("meshunit", "");
     add_values(data, used, values, arrays);
     finish();
@@ -57,19 +63,24 @@ public:
   }
 
 private:
-  [[noreturn]] void refuse(const std::string& key, std::string_view code, std::string text, std::vector<std::string> hints = {}) const {
+  [[noreturn]] void refuse(const std::string& key, std::string_view code, std::string text,
+                           std::vector<std::string> hints = {}) const {
     const auto found = header_.find(key);
-    fail(Exit::BadInput, code, found == header_.end() ? scan_.place() : scan_.place_of(found->second.at), std::move(text), std::move(hints));
+    fail(Exit::BadInput, code, found == header_.end() ? scan_.place() : scan_.place_of(found->second.at),
+         std::move(text), std::move(hints));
   }
 
   void read_version() {
     const std::string first = lower(scan_.line());
     if (first.find("ovf 2.0") != std::string::npos) {
       version_ = 2;
-    } else if (first.find("mesh v1.0") != std::string::npos || first.find("mesh v0.99") != std::string::npos || first.find("ovf 1.0") != std::string::npos) {
+    } else if (first.find("mesh v1.0") != std::string::npos ||
+               first.find("mesh v0.99") != std::string::npos || first.find("ovf 1.0") != std::string::npos) {
       version_ = 1;
     } else {
-      scan_.refuse(field_code::variant, fmt::format("the version of the OVF file is unknown: {}", shown(first)), {"known: '# OOMMF OVF 2.0', '# OOMMF: rectangular mesh v1.0'"});
+      scan_.refuse(field_code::variant,
+                   fmt::format("the version of the OVF file is unknown: {}", shown(first)),
+                   {"known: '# OOMMF OVF 2.0', '# OOMMF: rectangular mesh v1.0'"});
     }
   }
 
@@ -79,11 +90,15 @@ private:
       const std::uint64_t at = scan_.offset();
       std::string_view line = trim(scan_.line());
       if (line.empty() || line.starts_with("##")) continue;
-      if (!line.starts_with('#')) scan_.refuse(code::heading, fmt::format("a header line begins with '#', not {}", shown(line)));
-      line = trim(line.substr(1, line.find("##", 1) == std::string_view::npos ? line.npos : line.find("##", 1) - 1));
+      if (!line.starts_with('#'))
+        scan_.refuse(code::heading, fmt::format("a header line begins with '#', not {}", shown(line)));
+      line = trim(
+          line.substr(1, line.find("##", 1) == std::string_view::npos ? line.npos : line.find("##", 1) - 1));
       const std::size_t colon = line.find(':');
       if (line.empty()) continue;
-      if (colon == std::string_view::npos) scan_.refuse(code::heading, fmt::format("a header line has the form '# key: value': {}", shown(line)));
+      if (colon == std::string_view::npos)
+        scan_.refuse(code::heading,
+                     fmt::format("a header line has the form '# key: value': {}", shown(line)));
       const std::string key = lower(trim(line.substr(0, colon)));
       const std::string value(trim(line.substr(colon + 1)));
       if (key == "begin" && lower(value).starts_with("data")) {
@@ -102,15 +117,20 @@ private:
     return found == header_.end() ? otherwise : found->second.value;
   }
   std::uint64_t count(const std::string& key) const {
-    if (!header_.contains(key)) refuse(key, field_code::part, fmt::format("the header has no {}", shown(key)));
+    if (!header_.contains(key))
+      refuse(key, field_code::part, fmt::format("the header has no {}", shown(key)));
     std::uint64_t value = 0;
-    if (!parse_count(header_.at(key).value, value)) refuse(key, code::heading, fmt::format("{} is not a count: {}", key, shown(header_.at(key).value)));
+    if (!parse_count(header_.at(key).value, value))
+      refuse(key, code::heading, fmt::format("{} is not a count: {}", key, shown(header_.at(key).value)));
     return value;
   }
   double real(const std::string& key) const {
-    if (!header_.contains(key)) refuse(key, field_code::part, fmt::format("the header has no {}", shown(key)));
+    if (!header_.contains(key))
+      refuse(key, field_code::part, fmt::format("the header has no {}", shown(key)));
     double value = 0;
-    if (!parse_real(header_.at(key).value, value)) refuse(key, code::not_a_value, fmt::format("{} is not a number: {}", key, shown(header_.at(key).value)));
+    if (!parse_real(header_.at(key).value, value))
+      refuse(key, code::not_a_value,
+             fmt::format("{} is not a number: {}", key, shown(header_.at(key).value)));
     return value;
   }
   void read_grid(ImageGrid& grid) const {
@@ -124,7 +144,9 @@ private:
   std::uint32_t value_count() const {
     if (version_ == 1 || !header_.contains("valuedim")) return 3;
     const std::uint64_t dim = count("valuedim");
-    if (dim == 0 || dim > max_fields) refuse("valuedim", code::heading, fmt::format("valuedim is '{}'; 1 to {} are possible", dim, max_fields));
+    if (dim == 0 || dim > max_fields)
+      refuse("valuedim", code::heading,
+             fmt::format("valuedim is '{}'; 1 to {} are possible", dim, max_fields));
     return static_cast<std::uint32_t>(dim);
   }
 
@@ -134,17 +156,22 @@ private:
     const bool wide = kind_ == "data binary 8";
     if (!wide && kind_ != "data binary 4") {
       scan_.binary = false;
-      fail(Exit::BadInput, field_code::variant, scan_.place_of(data_line_), fmt::format("data of the kind {} cannot be read", shown(kind_)), {"readable: Data Text, Data Binary 4, Data Binary 8"});
+      fail(Exit::BadInput, field_code::variant, scan_.place_of(data_line_),
+           fmt::format("data of the kind {} cannot be read", shown(kind_)),
+           {"readable: Data Text, Data Binary 4, Data Binary 8"});
     }
     const Order order = version_ == 1 ? Order::Big : Order::Little;
     const std::uint64_t at = scan_.offset();
     const std::string_view mark = scan_.take(wide ? 8 : 4, "the check value");
-    const double seen = wide ? load_number<double>(mark.data(), order) : static_cast<double>(load_number<float>(mark.data(), order));
+    const double seen = wide ? load_number<double>(mark.data(), order)
+                             : static_cast<double>(load_number<float>(mark.data(), order));
     const double wanted = wide ? 123456789012345.0 : 1234567.0;
     if (seen != wanted)
-      fail(Exit::BadInput, code::heading, scan_.place_of(at), fmt::format("the check value in front of the data is '{}' instead of {}", seen, wanted));
+      fail(Exit::BadInput, code::heading, scan_.place_of(at),
+           fmt::format("the check value in front of the data is '{}' instead of {}", seen, wanted));
     const Scalar type = wide ? Scalar::Float64 : Scalar::Float32;
-    const std::string_view bytes = scan_.take(times(times(rows, columns), size_of(type)), fmt::format("the values of {} points", rows));
+    const std::string_view bytes =
+        scan_.take(times(times(rows, columns), size_of(type)), fmt::format("the values of {} points", rows));
     return unpack("values", bytes, {type, order, rows, columns, 0});
   }
 
@@ -160,7 +187,8 @@ private:
   }
 
   // Labels such as Magnetization_x Magnetization_y Magnetization_z are one vector: assemble() joins them.
-  void add_values(const Column& data, std::uint32_t used, std::uint32_t count, std::vector<Column>& arrays) const {
+  void add_values(const Column& data, std::uint32_t used, std::uint32_t count,
+                  std::vector<Column>& arrays) const {
     std::vector<std::string> labels, units;
     for (auto [key, list] : {std::pair{"valuelabels", &labels}, std::pair{"valueunits", &units}}) {
       const std::string line = text(key, "");
@@ -170,9 +198,12 @@ private:
     const std::string unit = units.empty() ? text("valueunit", "") : units.front();
     const double scale = header_.contains("valuemultiplier") ? real("valuemultiplier") : 1.0;
     const bool vector = count == 3 && (labels.size() != 3 || common_base(labels).has_value());
-    const std::string whole = labels.size() == 3 && vector ? *common_base(labels) : unit == "A/m" ? "magnetization" : "field";
+    const std::string whole = labels.size() == 3 && vector ? *common_base(labels)
+                              : unit == "A/m"              ? "magnetization"
+                                                           : "field";
     const std::size_t first = arrays.size();
-    if (vector || labels.size() != count) arrays.push_back(split(data, used, count, whole));
+    if (vector || labels.size() != count)
+      arrays.push_back(split(data, used, count, whole));
     else
       for (std::uint32_t k = 0; k < count; ++k) arrays.push_back(split(data, used, 1, labels[k]));
     for (std::size_t i = first; i < arrays.size(); ++i) {
@@ -195,11 +226,15 @@ private:
     while (scan_.left() > 0 && line.empty()) line = trim(scan_.line());
     std::string end = lower(line.substr(std::min<std::size_t>(1, line.size())));
     if (lower(trim(end)) != "end: " + kind_)
-      scan_.refuse(scan_.left() == 0 ? code::ends_early : code::follows, fmt::format("'# End: {}' is missing behind the values; here stands {}", kind_, shown(line)));
-    if (scan_.rest().find("End: Segment") == std::string_view::npos && lower(scan_.rest()).find("end: segment") == std::string::npos)
+      scan_.refuse(
+          scan_.left() == 0 ? code::ends_early : code::follows,
+          fmt::format("'# End: {}' is missing behind the values; here stands {}", kind_, shown(line)));
+    if (scan_.rest().find("End: Segment") == std::string_view::npos &&
+        lower(scan_.rest()).find("end: segment") == std::string::npos)
       scan_.refuse(code::ends_early, "the file ends early: '# End: Segment' is missing");
     if (!more_segments_.empty())
-      warnings_.note(field_code::left_out, {file_}, fmt::format("the file has {} segments; the first is read", more_segments_));
+      warnings_.note(field_code::left_out, {file_},
+                     fmt::format("the file has {} segments; the first is read", more_segments_));
   }
 
   std::string file_;

@@ -92,7 +92,8 @@ private:
     while (const auto line = ahead.peek()) {
       if (is_atom(line->text)) return;
       const std::string_view record = pdb_record(line->text);
-      tail = tail && (record == "CONECT" || record == "END" || record == "MASTER" || record == "TER" || record.empty());
+      tail = tail && (record == "CONECT" || record == "END" || record == "MASTER" || record == "TER" ||
+                      record.empty());
       (void)ahead.next();
       if (tail) cursor = ahead;
     }
@@ -109,7 +110,8 @@ private:
     before.remove_prefix(before.rfind('\n') + 1);
     if (before.ends_with('\r')) before.remove_suffix(1);
     const bool pair = is_atom(before) || before.starts_with("ANISOU");
-    const bool begun = last.size() < 6 && (std::string_view("ATOM  ").starts_with(last) || std::string_view("HETATM").starts_with(last) ||
+    const bool begun = last.size() < 6 && (std::string_view("ATOM  ").starts_with(last) ||
+                                           std::string_view("HETATM").starts_with(last) ||
                                            std::string_view("ANISOU").starts_with(last));
     return begun || (pair && (is_atom(last) || last.starts_with("ANISOU")) && last.size() < before.size());
   }
@@ -139,7 +141,8 @@ private:
       ended = ended || (atoms.count > 0 && (record == "ENDMDL" || record == "END"));
     }
     if (open && !ended && cursor.at_end())
-      fail(Exit::BadInput, code::ends_early, {file(), cursor.line()}, "the file ends within a model: ENDMDL is missing");
+      fail(Exit::BadInput, code::ends_early, {file(), cursor.line()},
+           "the file ends within a model: ENDMDL is missing");
   }
 
   void add_atom(const Line& line, AtomColumns& atoms) const {
@@ -147,7 +150,8 @@ private:
     if (text.size() < 54)
       fail(Exit::BadInput, code::too_few, {file(), line.number},
            fmt::format("the record has {} columns, but the positions reach to column 54", text.size()));
-    for (const std::size_t first : {31u, 39u, 47u}) atoms.positions.push_back(real(line, first, first + 7, 0, false));
+    for (const std::size_t first : {31u, 39u, 47u})
+      atoms.positions.push_back(real(line, first, first + 7, 0, false));
     atoms.occupancies.push_back(real(line, 55, 60, 1, true));
     atoms.b_factors.push_back(real(line, 61, 66, 0, true));
     const std::int64_t before = atoms.ids.empty() ? 0 : atoms.ids.back();
@@ -171,7 +175,8 @@ private:
     if (const auto number = wide_number(field)) return *number;
     const std::int64_t before = atoms.residue_ids.empty() ? 0 : atoms.residue_ids.back();
     if (trim(field).empty() || field.find_first_not_of('*') == std::string_view::npos) return before;
-    fail(Exit::BadInput, code::not_a_value, place_in(file(), line, field), fmt::format("the residue number is {}, not an integer", shown(trim(field))));
+    fail(Exit::BadInput, code::not_a_value, place_in(file(), line, field),
+         fmt::format("the residue number is {}, not an integer", shown(trim(field))));
   }
 
   double real(const Line& line, std::size_t first, std::size_t last, double missing, bool may_miss) const {
@@ -186,7 +191,8 @@ private:
   void add_anisou(const Line& line, std::string_view atom, AtomColumns& atoms) {
     if (atom.empty() || pdb_columns(line.text, 7, 27) != pdb_columns(atom, 7, 27)) {
       if (!warnings_.has(molecule_code::anisotropy))
-        warnings_.warning(molecule_code::anisotropy, {file(), line.number}, "an ANISOU record does not follow its atom and is ignored");
+        warnings_.warning(molecule_code::anisotropy, {file(), line.number},
+                          "an ANISOU record does not follow its atom and is ignored");
       return;
     }
     double* const out = atoms.anisou_of(atoms.count - 1);
@@ -194,7 +200,8 @@ private:
       const std::string_view field = pdb_columns(line.text, 29 + 7 * k, 35 + 7 * k);
       std::int64_t value = 0;
       if (!parse_integer(trim(field), value))
-        fail(Exit::BadInput, code::not_a_value, place_in(file(), line, field), fmt::format("{} in ANISOU is not an integer", shown(trim(field))));
+        fail(Exit::BadInput, code::not_a_value, place_in(file(), line, field),
+             fmt::format("{} in ANISOU is not an integer", shown(trim(field))));
       out[k] = static_cast<double>(value) * 1e-4;
     }
   }
@@ -206,8 +213,10 @@ private:
       const std::size_t before = begin >= 2 ? all.rfind('\n', begin - 2) : std::string_view::npos;
       const std::size_t start = before == std::string_view::npos ? 0 : before + 1;
       const std::string_view record = pdb_record(all.substr(start, begin - start));
-      if (record == "CONECT") found = start;
-      else if (record != "MASTER" && record != "END" && !record.empty()) break;
+      if (record == "CONECT")
+        found = start;
+      else if (record != "MASTER" && record != "END" && !record.empty())
+        break;
       begin = start;
     }
     return found == std::string_view::npos ? std::nullopt : std::optional(Cursor(all, found));
@@ -231,12 +240,16 @@ private:
         const std::string_view field = pdb_columns(line.text, first, first + 4);
         if (field.size() < 5 || trim(field).empty()) continue;
         const auto to = rows.find(wide_number(field).value_or(-1));
-        if (from == rows.end() || to == rows.end()) ++unknown;
-        else bonds.add(from->second, to->second);
+        if (from == rows.end() || to == rows.end())
+          ++unknown;
+        else
+          bonds.add(from->second, to->second);
       }
     }
     if (unknown > 0 && !warnings_.has(molecule_code::bond))
-      warnings_.warning(molecule_code::bond, {file()}, fmt::format("{} bonds of CONECT records name atoms that are not there and are left out", unknown));
+      warnings_.warning(
+          molecule_code::bond, {file()},
+          fmt::format("{} bonds of CONECT records name atoms that are not there and are left out", unknown));
     return bonds.take();
   }
 
@@ -249,14 +262,16 @@ Sureness probe(const Probe& file) {
   cursor.skip_blank();
   const auto first = cursor.peek();
   if (!first) return Sureness::No;
-  constexpr std::array<std::string_view, 14> records{"HEADER", "TITLE ", "COMPND", "REMARK", "CRYST1", "MODEL ", "ATOM  ",
-                                                     "HETATM", "AUTHOR", "SEQRES", "OBSLTE", "EXPDTA", "NUMMDL", "ORIGX1"};
+  constexpr std::array<std::string_view, 14> records{"HEADER", "TITLE ", "COMPND", "REMARK", "CRYST1",
+                                                     "MODEL ", "ATOM  ", "HETATM", "AUTHOR", "SEQRES",
+                                                     "OBSLTE", "EXPDTA", "NUMMDL", "ORIGX1"};
   bool known = false;
   for (const std::string_view record : records) known = known || first->text.substr(0, 6) == record;
   while (const auto line = cursor.next()) {
     double value = 0;
     if (!is_atom(line->text) || line->text.size() < 54) continue;
-    if (parse_real(trim(pdb_columns(line->text, 31, 38)), value) && parse_real(trim(pdb_columns(line->text, 47, 54)), value))
+    if (parse_real(trim(pdb_columns(line->text, 31, 38)), value) &&
+        parse_real(trim(pdb_columns(line->text, 47, 54)), value))
       return known ? Sureness::Certain : Sureness::Likely;
   }
   return known ? Sureness::Likely : Sureness::ByName;
@@ -267,7 +282,9 @@ Sureness probe(const Probe& file) {
 Reader pdb_reader() {
   return {{"pdb", "Protein Data Bank, fixed columns (A)", "pdb ent pdb1"},
           probe,
-          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> { return std::make_unique<PdbSource>(std::move(bytes)); }};
+          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
+            return std::make_unique<PdbSource>(std::move(bytes));
+          }};
 }
 
 } // namespace mote::data

@@ -21,7 +21,8 @@ using Three = std::array<double, 3>;
 struct Hash {
   std::size_t operator()(const Three& p) const {
     std::uint64_t h = 0x9e3779b97f4a7c15;
-    for (const double v : p) h = (h ^ std::bit_cast<std::uint64_t>(v == 0 ? 0.0 : v)) * 0xff51afd7ed558ccd, h ^= h >> 32;
+    for (const double v : p)
+      h = (h ^ std::bit_cast<std::uint64_t>(v == 0 ? 0.0 : v)) * 0xff51afd7ed558ccd, h ^= h >> 32;
     return h;
   }
 };
@@ -57,15 +58,19 @@ constexpr std::uint64_t head_size = 84, facet_size = 50; // of the binary kind: 
 // An ascii file says "solid" and then "facet" or "endsolid"; "solid" alone may begin a binary one, too.
 bool is_ascii(std::string_view all) {
   const std::string head = lower(all.substr(0, 1024));
-  return head.starts_with("solid") && (head.find("facet") != std::string::npos || head.find("endsolid") != std::string::npos);
+  return head.starts_with("solid") &&
+         (head.find("facet") != std::string::npos || head.find("endsolid") != std::string::npos);
 }
 
 Frame parse_binary(Bytes& bytes, Diagnostics& warnings) {
   ByteReader in(bytes, Order::Little);
   in.skip(80, "the heading");
   const auto facets = in.number<std::uint32_t>("the number of facets");
-  const std::string_view all = in.take(std::uint64_t{facets} * facet_size, fmt::format("the {} facets", facets));
-  if (in.left() > 0) warnings.warning(code::trailing, byte_place(bytes, in.at()), fmt::format("{} bytes behind the last facet are ignored", in.left()));
+  const std::string_view all =
+      in.take(std::uint64_t{facets} * facet_size, fmt::format("the {} facets", facets));
+  if (in.left() > 0)
+    warnings.warning(code::trailing, byte_place(bytes, in.at()),
+                     fmt::format("{} bytes behind the last facet are ignored", in.left()));
   Corners corners;
   for (std::uint64_t f = 0; f < facets; ++f) {
     std::array<double, 12> v{};
@@ -92,8 +97,11 @@ Frame parse_ascii(Bytes& bytes) {
   while (!scan.peek().empty()) {
     expect(scan, "solid");
     (void)scan.line();
-    for (std::string_view word = scan.need_word("'endsolid'"); !same_word(word, "endsolid"); word = scan.need_word("'endsolid'")) {
-      if (!same_word(word, "facet")) scan.refuse(code::heading, fmt::format("'facet' or 'endsolid' is missing; here stands {}", shown(word)));
+    for (std::string_view word = scan.need_word("'endsolid'"); !same_word(word, "endsolid");
+         word = scan.need_word("'endsolid'")) {
+      if (!same_word(word, "facet"))
+        scan.refuse(code::heading,
+                    fmt::format("'facet' or 'endsolid' is missing; here stands {}", shown(word)));
       expect(scan, "normal");
       const Three normal = three(scan);
       expect(scan, "outer");
@@ -117,8 +125,10 @@ Frame parse_stl(Bytes& bytes, Diagnostics& warnings) {
 Sureness probe_stl(const Probe& probe) {
   if (is_ascii(probe.head)) return Sureness::Likely;
   if (probe.head.size() < head_size) return Sureness::ByName;
-  const std::uint64_t size = head_size + facet_size * load_number<std::uint32_t>(probe.head.data() + 80, Order::Little);
-  return size == probe.head.size() ? Sureness::Likely : Sureness::ByName; // of a longer file only the name tells
+  const std::uint64_t size =
+      head_size + facet_size * load_number<std::uint32_t>(probe.head.data() + 80, Order::Little);
+  return size == probe.head.size() ? Sureness::Likely
+                                   : Sureness::ByName; // of a longer file only the name tells
 }
 
 } // namespace

@@ -19,8 +19,9 @@ constexpr std::int32_t magic = 1993;
 constexpr std::string_view version = "GMX_trn_file";
 
 struct TrrHead {
-  std::uint64_t box{}, before{}, position{}, velocity{}, force{}; // bytes; `before`: between box and positions
-  std::uint64_t atoms{}, real{4};                                 // bytes of a real number
+  std::uint64_t box{}, before{}, position{}, velocity{},
+      force{};                    // bytes; `before`: between box and positions
+  std::uint64_t atoms{}, real{4}; // bytes of a real number
   std::int32_t step{};
   double time{};
 };
@@ -60,7 +61,8 @@ protected:
   }
 
 private:
-  static void add(ByteReader& in, const TrrHead& head, std::uint64_t bytes, std::string name, std::string unit, Frame& frame) {
+  static void add(ByteReader& in, const TrrHead& head, std::uint64_t bytes, std::string name,
+                  std::string unit, Frame& frame) {
     if (bytes == 0) return;
     if (bytes > in.left()) in.skip(bytes, "the values of a frame"); // says so, before anything is allocated
     std::vector<double> values(3 * head.atoms);
@@ -71,13 +73,16 @@ private:
   static void read_version(ByteReader& in) {
     const std::uint64_t start = in.at();
     if (const auto word = in.number<std::int32_t>("the header of a frame"); word != magic)
-      in.refuse_at(start, molecule_code::structure, fmt::format("a frame of a TRR file begins with 1993, not with {}", word));
+      in.refuse_at(start, molecule_code::structure,
+                   fmt::format("a frame of a TRR file begins with 1993, not with {}", word));
     (void)in.number<std::int32_t>("the header of a frame"); // the length with the final zero
     const auto length = in.number<std::uint32_t>("the header of a frame");
     if (length != version.size())
-      in.refuse_at(start + 8, molecule_code::structure, fmt::format("the version text of a TRR frame has 12 letters, not {}", length));
+      in.refuse_at(start + 8, molecule_code::structure,
+                   fmt::format("the version text of a TRR frame has 12 letters, not {}", length));
     if (const std::string_view text = in.take(length, "the header of a frame"); text != version)
-      in.refuse_at(start + 12, molecule_code::structure, fmt::format("the version text of a TRR frame is '{}', not {}", version, shown(text)));
+      in.refuse_at(start + 12, molecule_code::structure,
+                   fmt::format("the version text of a TRR frame is '{}', not {}", version, shown(text)));
   }
 
   static TrrHead read_head(ByteReader& in) {
@@ -87,9 +92,11 @@ private:
     for (std::int32_t& word : words) word = in.number<std::int32_t>("the header of a frame");
     for (std::size_t k = 0; k < 11; ++k)
       if (words[k] < 0)
-        in.refuse_at(start + 4 * k, molecule_code::count, fmt::format("a length in the header of a frame is {}", words[k]));
+        in.refuse_at(start + 4 * k, molecule_code::count,
+                     fmt::format("a length in the header of a frame is {}", words[k]));
     auto length = [&](std::size_t k) { return static_cast<std::uint64_t>(words[k]); };
-    TrrHead head{length(2), length(0) + length(1) + length(3) + length(4) + length(5) + length(6), length(7), length(8),
+    TrrHead head{length(2), length(0) + length(1) + length(3) + length(4) + length(5) + length(6),
+                 length(7), length(8),
                  length(9), length(10)};
     head.step = words[11];
     check_lengths(in, start, head);
@@ -100,9 +107,9 @@ private:
 
   // The size of a real number follows from the box or the vectors; all must agree.
   static void check_lengths(const ByteReader& in, std::uint64_t start, TrrHead& head) {
-    for (const std::uint64_t part : {head.box / 9, head.atoms ? head.position / (3 * head.atoms) : 0,
-                                     head.atoms ? head.velocity / (3 * head.atoms) : 0,
-                                     head.atoms ? head.force / (3 * head.atoms) : 0})
+    for (const std::uint64_t part :
+         {head.box / 9, head.atoms ? head.position / (3 * head.atoms) : 0,
+          head.atoms ? head.velocity / (3 * head.atoms) : 0, head.atoms ? head.force / (3 * head.atoms) : 0})
       if (part > 0) {
         head.real = part;
         break;
@@ -110,12 +117,15 @@ private:
     const std::uint64_t vectors = 3 * head.atoms * head.real;
     const bool fits = (head.real == 4 || head.real == 8) && (head.box == 0 || head.box == 9 * head.real) &&
                       (head.position == 0 || head.position == vectors) &&
-                      (head.velocity == 0 || head.velocity == vectors) && (head.force == 0 || head.force == vectors);
+                      (head.velocity == 0 || head.velocity == vectors) &&
+                      (head.force == 0 || head.force == vectors);
     if (!fits)
-      in.refuse_at(start, molecule_code::count,
-                   fmt::format("the lengths in the header of a frame do not fit {} atoms: box {}, positions {}, velocities "
-                               "{}, forces {} bytes",
-                               head.atoms, head.box, head.position, head.velocity, head.force));
+      in.refuse_at(
+          start, molecule_code::count,
+          fmt::format(
+              "the lengths in the header of a frame do not fit {} atoms: box {}, positions {}, velocities "
+              "{}, forces {} bytes",
+              head.atoms, head.box, head.position, head.velocity, head.force));
   }
 
   static double read_real(ByteReader& in, std::uint64_t width) {
@@ -135,7 +145,9 @@ Sureness probe(const Probe& file) {
 Reader trr_reader() {
   return {{"trr", "GROMACS full-precision trajectory (nm, ps)", "trr"},
           probe,
-          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> { return std::make_unique<TrrSource>(std::move(bytes)); }};
+          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
+            return std::make_unique<TrrSource>(std::move(bytes));
+          }};
 }
 
 } // namespace mote::data

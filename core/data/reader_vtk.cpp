@@ -19,17 +19,28 @@ namespace mote::data {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, Scalar>, 16> type_words{{
-    {"char", Scalar::Int8},           {"signed_char", Scalar::Int8},      {"unsigned_char", Scalar::UInt8},
-    {"short", Scalar::Int16},         {"unsigned_short", Scalar::UInt16}, {"int", Scalar::Int32},
-    {"unsigned_int", Scalar::UInt32}, {"long", Scalar::Int64},            {"unsigned_long", Scalar::UInt64},
-    {"float", Scalar::Float32},       {"double", Scalar::Float64},        {"vtkidtype", Scalar::Int32},
-    {"vtktypeint64", Scalar::Int64},  {"vtktypeuint64", Scalar::UInt64},  {"vtktypeint32", Scalar::Int32},
+    {"char", Scalar::Int8},
+    {"signed_char", Scalar::Int8},
+    {"unsigned_char", Scalar::UInt8},
+    {"short", Scalar::Int16},
+    {"unsigned_short", Scalar::UInt16},
+    {"int", Scalar::Int32},
+    {"unsigned_int", Scalar::UInt32},
+    {"long", Scalar::Int64},
+    {"unsigned_long", Scalar::UInt64},
+    {"float", Scalar::Float32},
+    {"double", Scalar::Float64},
+    {"vtkidtype", Scalar::Int32},
+    {"vtktypeint64", Scalar::Int64},
+    {"vtktypeuint64", Scalar::UInt64},
+    {"vtktypeint32", Scalar::Int32},
     {"vtktypeuint32", Scalar::UInt32},
 }};
 
 class LegacyVtk {
 public:
-  LegacyVtk(Bytes& bytes, Diagnostics& warnings) : scan_(bytes.name(), bytes.view()), file_(bytes.name()), warnings_(warnings) {}
+  LegacyVtk(const Bytes& bytes, Diagnostics& warnings)
+      : scan_(bytes.name(), bytes.view()), file_(bytes.name()), warnings_(warnings) {}
 
   Frame read() {
     read_head();
@@ -49,9 +60,11 @@ private:
     if (const auto word = scan_.need_word("DATASET"); !same_word(word, "DATASET"))
       scan_.refuse(code::heading, fmt::format("DATASET is missing; here stands {}", shown(word)));
     dataset_ = lower(scan_.need_word("the kind of the dataset"));
-    const std::vector<std::string> kinds{"polydata", "unstructured_grid", "structured_grid", "rectilinear_grid", "structured_points"};
+    const std::vector<std::string> kinds{"polydata", "unstructured_grid", "structured_grid",
+                                         "rectilinear_grid", "structured_points"};
     if (std::find(kinds.begin(), kinds.end(), dataset_) == kinds.end())
-      scan_.refuse(field_code::variant, fmt::format("a DATASET {} cannot be read", shown(dataset_)), {"readable: " + list_of(kinds)});
+      scan_.refuse(field_code::variant, fmt::format("a DATASET {} cannot be read", shown(dataset_)),
+                   {"readable: " + list_of(kinds)});
   }
 
   void section(const std::string& word) {
@@ -62,9 +75,11 @@ private:
     if (word == "x_coordinates") return read_axis(0);
     if (word == "y_coordinates") return read_axis(1);
     if (word == "z_coordinates") return read_axis(2);
-    if (word == "vertices" || word == "lines" || word == "polygons" || word == "triangle_strips" || word == "cells")
+    if (word == "vertices" || word == "lines" || word == "polygons" || word == "triangle_strips" ||
+        word == "cells")
       return skip_cells(word);
-    if (word == "cell_types") return skip_array("CELL_TYPES", scan_.count("the number of cell types"), 1, Scalar::Int32);
+    if (word == "cell_types")
+      return skip_array("CELL_TYPES", scan_.count("the number of cell types"), 1, Scalar::Int32);
     if (word == "metadata") return skip_metadata();
     if (word == "point_data" || word == "cell_data") return begin_data(word);
     if (word == "field") return read_field();
@@ -81,7 +96,8 @@ private:
     const std::uint64_t count = scan_.count("the number of points");
     Column points = array("points", count, 3, type());
     points_.resize(points.rows() * 3);
-    for (std::uint64_t i = 0; i < points_.size(); ++i) points_[i] = points.number(i / 3, static_cast<std::uint32_t>(i % 3));
+    for (std::uint64_t i = 0; i < points_.size(); ++i)
+      points_[i] = points.number(i / 3, static_cast<std::uint32_t>(i % 3));
     has_points_ = true;
   }
   void read_axis(std::size_t axis) {
@@ -105,7 +121,8 @@ private:
   // Name lines and their values until a blank line or the end.
   void skip_metadata() {
     (void)scan_.line();
-    while (scan_.left() && !trim(scan_.line()).empty()) {}
+    while (scan_.left() && !trim(scan_.line()).empty()) {
+    }
   }
 
   void begin_data(const std::string& word) {
@@ -113,7 +130,8 @@ private:
     rows_ = scan_.count("the number of rows");
     const std::uint64_t wanted = in_cells_ ? rows_ : point_count();
     if (rows_ != wanted)
-      scan_.refuse(field_code::length, fmt::format("POINT_DATA has {} rows, but there are {} points", rows_, wanted));
+      scan_.refuse(field_code::length,
+                   fmt::format("POINT_DATA has {} rows, but there are {} points", rows_, wanted));
     attributes_ = true;
   }
 
@@ -134,13 +152,18 @@ private:
       const std::uint32_t components = small(scan_.count("the number of components"));
       return keep(array(name, rows_, components, type()));
     }
-    if (word == "vectors" || word == "normals") return keep(array(word == "normals" ? "normal" : name, rows_, 3, type()));
+    if (word == "vectors" || word == "normals")
+      return keep(array(word == "normals" ? "normal" : name, rows_, 3, type()));
     if (word == "tensors") return keep(array(name, rows_, 9, type()));
     if (word == "tensors6") return keep(array(name, rows_, 6, type()));
-    if (word == "global_ids" || word == "pedigree_ids" || word == "edge_flags") return keep(array(name, rows_, 1, type()));
-    const std::vector<std::string> known{"SCALARS", "COLOR_SCALARS", "LOOKUP_TABLE", "VECTORS", "NORMALS", "TEXTURE_COORDINATES",
-                                         "TENSORS", "FIELD", "GLOBAL_IDS", "PEDIGREE_IDS", "METADATA", "POINT_DATA", "CELL_DATA"};
-    scan_.refuse(code::heading, fmt::format("{} is no part of a VTK file", shown(word)), {did_you_mean(word, known)});
+    if (word == "global_ids" || word == "pedigree_ids" || word == "edge_flags")
+      return keep(array(name, rows_, 1, type()));
+    const std::vector<std::string> known{"SCALARS",    "COLOR_SCALARS",       "LOOKUP_TABLE", "VECTORS",
+                                         "NORMALS",    "TEXTURE_COORDINATES", "TENSORS",      "FIELD",
+                                         "GLOBAL_IDS", "PEDIGREE_IDS",        "METADATA",     "POINT_DATA",
+                                         "CELL_DATA"};
+    scan_.refuse(code::heading, fmt::format("{} is no part of a VTK file", shown(word)),
+                 {did_you_mean(word, known)});
   }
 
   void read_scalars(const std::string& name) {
@@ -167,13 +190,15 @@ private:
       const std::uint32_t components = small(scan_.count("the number of components"));
       const std::uint64_t rows = scan_.count("the number of rows");
       if (attributes_ && rows != rows_)
-        scan_.refuse(field_code::length, fmt::format("the array {} has {} rows where {} are needed", shown(name), rows, rows_));
+        scan_.refuse(field_code::length,
+                     fmt::format("the array {} has {} rows where {} are needed", shown(name), rows, rows_));
       Column values = array(name, rows, components, type());
       if (attributes_) {
         keep(std::move(values));
       } else if (values.type() != ColumnType::Text && rows == 1 && components == 1) {
         if (same_word(name, "TIME") || same_word(name, "TimeValue")) frame_.time = values.number(0);
-        if (same_word(name, "CYCLE") && std::abs(values.number(0)) < 1e15) frame_.step = static_cast<std::int64_t>(values.number(0));
+        if (same_word(name, "CYCLE") && std::abs(values.number(0)) < 1e15)
+          frame_.step = static_cast<std::int64_t>(values.number(0));
       }
     }
   }
@@ -193,11 +218,13 @@ private:
       if (name == word) return scalar;
     std::vector<std::string> known{"bit", "string"};
     for (const auto& [name, scalar] : type_words) known.emplace_back(name);
-    scan_.refuse(field_code::variant, fmt::format("values of type {} cannot be read", shown(word)), {did_you_mean(word, known), "readable: " + list_of(known)});
+    scan_.refuse(field_code::variant, fmt::format("values of type {} cannot be read", shown(word)),
+                 {did_you_mean(word, known), "readable: " + list_of(known)});
   }
   std::uint32_t small(std::uint64_t components) const {
     if (components == 0 || components > max_fields)
-      scan_.refuse(code::heading, fmt::format("'{}' components are not possible; 1 to {} are", components, max_fields));
+      scan_.refuse(code::heading,
+                   fmt::format("'{}' components are not possible; 1 to {} are", components, max_fields));
     return static_cast<std::uint32_t>(components);
   }
 
@@ -207,13 +234,16 @@ private:
     if (!scan_.binary) return scan_.numbers(name, rows, components, !is_real(kind.scalar));
     (void)scan_.line();
     const std::uint64_t values = times(rows, components);
-    if (kind.bits) return unpack_bits(name, rows, components, scan_.take(values / 8 + (values % 8 != 0), shown(name)));
+    if (kind.bits)
+      return unpack_bits(name, rows, components, scan_.take(values / 8 + (values % 8 != 0), shown(name)));
     const std::string_view bytes = scan_.take(times(values, size_of(kind.scalar)), shown(name));
     return unpack(name, bytes, {kind.scalar, Order::Big, rows, components, 0});
   }
-  static Column unpack_bits(const std::string& name, std::uint64_t rows, std::uint32_t components, std::string_view bytes) {
+  static Column unpack_bits(const std::string& name, std::uint64_t rows, std::uint32_t components,
+                            std::string_view bytes) {
     std::vector<std::int64_t> values(rows * components);
-    for (std::uint64_t i = 0; i < values.size(); ++i) values[i] = static_cast<unsigned char>(bytes[i / 8]) >> (7 - i % 8) & 1;
+    for (std::uint64_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<unsigned char>(bytes[i / 8]) >> (7 - i % 8) & 1;
     return {name, components, std::move(values), {}};
   }
   void skip_array(std::string_view name, std::uint64_t rows, std::uint32_t components, Kind kind) {
@@ -242,7 +272,8 @@ private:
 
   void keep(Column column) {
     if (column.type() == ColumnType::Text) {
-      warnings_.note(field_code::left_out, {file_}, fmt::format("the texts {} are left out", shown(column.name)));
+      warnings_.note(field_code::left_out, {file_},
+                     fmt::format("the texts {} are left out", shown(column.name)));
     } else {
       (in_cells_ ? cell_data_ : point_data_).push_back(std::move(column));
     }
@@ -250,28 +281,35 @@ private:
 
   std::uint64_t point_count() const {
     if (dataset_ == "structured_points") return image_.size.points();
-    if (dataset_ == "rectilinear_grid") return times(times(axes_[0].size(), axes_[1].size()), axes_[2].size());
+    if (dataset_ == "rectilinear_grid")
+      return times(times(axes_[0].size(), axes_[1].size()), axes_[2].size());
     return points_.size() / 3;
   }
 
   Frame finish() {
     const bool image = dataset_ == "structured_points", rectilinear = dataset_ == "rectilinear_grid";
-    if (!image && !rectilinear && !has_points_) scan_.refuse(code::ends_early, "the file ends early: POINTS is missing");
+    if (!image && !rectilinear && !has_points_)
+      scan_.refuse(code::ends_early, "the file ends early: POINTS is missing");
     if (dataset_ == "structured_grid" && image_.size.points() != point_count())
-      scan_.refuse(field_code::length, fmt::format("DIMENSIONS {} give {} points, but POINTS has {}", image_.size.text(), image_.size.points(), point_count()));
-    if (rectilinear && point_count() == 0) scan_.refuse(code::ends_early, "the file ends early: coordinates are missing");
+      scan_.refuse(field_code::length, fmt::format("DIMENSIONS {} give {} points, but POINTS has {}",
+                                                   image_.size.text(), image_.size.points(), point_count()));
+    if (rectilinear && point_count() == 0)
+      scan_.refuse(code::ends_early, "the file ends early: coordinates are missing");
     if (rectilinear)
       for (std::size_t a = 0; a < 3; ++a) image_.size.nodes[a] = axes_[a].size();
     const bool grid = image || rectilinear || dataset_ == "structured_grid";
-    const bool centers = grid && point_data_.empty() && !cell_data_.empty() && cell_data_.front().rows() == image_.size.cells();
+    const bool centers = grid && point_data_.empty() && !cell_data_.empty() &&
+                         cell_data_.front().rows() == image_.size.cells();
     std::vector<double> at = image         ? image_points(image_, centers, {file_})
                              : rectilinear ? rectilinear_points(axes_, centers, {file_})
                              : centers     ? structured_centers(image_.size, points_, {file_})
                                            : std::move(points_);
     if (centers)
-      warnings_.note(field_code::left_out, {file_}, "there is no point data: the particles are the centers of the cells");
+      warnings_.note(field_code::left_out, {file_},
+                     "there is no point data: the particles are the centers of the cells");
     else if (!cell_data_.empty())
-      warnings_.note(field_code::left_out, {file_}, fmt::format("{} arrays of cell data are left out", cell_data_.size()));
+      warnings_.note(field_code::left_out, {file_},
+                     fmt::format("{} arrays of cell data are left out", cell_data_.size()));
     std::vector<Column> arrays{position_column(std::move(at))};
     for (Column& column : centers ? cell_data_ : point_data_)
       if (column.rows() == arrays.front().rows()) arrays.push_back(std::move(column));
@@ -292,7 +330,10 @@ private:
   Frame frame_{};
 };
 
-Frame parse_vtk(Bytes& bytes, Diagnostics& warnings) { return LegacyVtk(bytes, warnings).read(); }
+Frame parse_vtk(Bytes& bytes, Diagnostics& warnings) {
+  check_last_line(bytes, warnings); // VTK ends binary arrays with one, too
+  return LegacyVtk(bytes, warnings).read();
+}
 
 Sureness probe_vtk(const Probe& probe) {
   return lower(probe.head.substr(0, 22)) == "# vtk datafile version" ? Sureness::Certain : Sureness::No;

@@ -32,21 +32,26 @@ public:
     }
     if (!any) xml_.refuse(dataset_, field_code::part, fmt::format("{} has no Piece", dataset_.name()));
     if (left_out_ > 0)
-      warnings_.note(field_code::left_out, {file_}, fmt::format("{} arrays of cell data are left out", left_out_));
+      warnings_.note(field_code::left_out, {file_},
+                     fmt::format("{} arrays of cell data are left out", left_out_));
     if (centers_)
-      warnings_.note(field_code::left_out, {file_}, "there is no point data: the particles are the centers of the cells");
+      warnings_.note(field_code::left_out, {file_},
+                     "there is no point data: the particles are the centers of the cells");
     assemble(frame, std::move(arrays_), {}, {file_});
     return frame;
   }
 
 private:
   void find_dataset() {
-    const std::vector<std::string> kinds{"PolyData", "UnstructuredGrid", "ImageData", "RectilinearGrid", "StructuredGrid"};
+    const std::vector<std::string> kinds{"PolyData", "UnstructuredGrid", "ImageData", "RectilinearGrid",
+                                         "StructuredGrid"};
     const std::string type = xml_.root().attribute("type").value();
     if (std::find(kinds.begin(), kinds.end(), type) == kinds.end()) {
       std::vector<std::string> hints{"readable: " + list_of(kinds)};
-      if (type.starts_with("P") || type == "Collection" || type.starts_with("vtkMulti")) hints.push_back("this file only names others: open those");
-      xml_.refuse(xml_.root(), field_code::variant, fmt::format("a VTKFile of type {} cannot be read", shown(type)), std::move(hints));
+      if (type.starts_with("P") || type == "Collection" || type.starts_with("vtkMulti"))
+        hints.push_back("this file only names others: open those");
+      xml_.refuse(xml_.root(), field_code::variant,
+                  fmt::format("a VTKFile of type {} cannot be read", shown(type)), std::move(hints));
     }
     dataset_ = xml_.root().child(type.c_str());
     if (!dataset_) xml_.refuse(xml_.root(), field_code::part, fmt::format("the element {} is missing", type));
@@ -60,8 +65,10 @@ private:
       if (name != "TimeValue" && name != "TIME" && name != "CYCLE") continue;
       const Column value = xml_.read(array, 1);
       if (value.type() == ColumnType::Text || value.components != 1) continue;
-      if (name != "CYCLE") frame.time = value.number(0);
-      else if (value.type() == ColumnType::Int) frame.step = std::get<std::vector<std::int64_t>>(value.values)[0];
+      if (name != "CYCLE")
+        frame.time = value.number(0);
+      else if (value.type() == ColumnType::Int)
+        frame.step = std::get<std::vector<std::int64_t>>(value.values)[0];
     }
   }
 
@@ -70,8 +77,10 @@ private:
     const std::vector<double> extent = xml_.numbers(piece, "Extent", 6);
     for (std::size_t a = 0; a < 3; ++a) {
       const double first = extent[2 * a], last = extent[2 * a + 1];
-      if (!(std::abs(first) < 4e15 && std::abs(last) < 4e15 && last >= first) || first != std::floor(first) || last != std::floor(last))
-        xml_.refuse(piece, field_code::part, fmt::format("the Extent {} is impossible", shown(piece.attribute("Extent").value())));
+      if (!(std::abs(first) < 4e15 && std::abs(last) < 4e15 && last >= first) || first != std::floor(first) ||
+          last != std::floor(last))
+        xml_.refuse(piece, field_code::part,
+                    fmt::format("the Extent {} is impossible", shown(piece.attribute("Extent").value())));
       grid.first[a] = static_cast<std::int64_t>(first);
       grid.size.nodes[a] = static_cast<std::uint64_t>(last - first) + 1;
     }
@@ -119,15 +128,18 @@ private:
       }
       return image_points(grid, centers, xml_.place(piece));
     }
-    if (kind_ == "RectilinearGrid") return rectilinear_points(axes(piece, grid.size), centers, xml_.place(piece));
+    if (kind_ == "RectilinearGrid")
+      return rectilinear_points(axes(piece, grid.size), centers, xml_.place(piece));
     need_memory(times(nodes, 3 * sizeof(double)), xml_.place(piece), fmt::format("the {} points", nodes));
     const pugi::xml_node array = piece.child("Points").child("DataArray");
     if (!array) xml_.refuse(piece, field_code::part, "the Piece has no Points");
     const Column column = xml_.read(array, nodes);
     if (column.components != 3 || column.type() == ColumnType::Text)
-      xml_.refuse(array, field_code::part, fmt::format("Points has {} components instead of 3", column.components));
+      xml_.refuse(array, field_code::part,
+                  fmt::format("Points has {} components instead of 3", column.components));
     std::vector<double> values(nodes * 3);
-    for (std::uint64_t i = 0; i < values.size(); ++i) values[i] = column.number(i / 3, static_cast<std::uint32_t>(i % 3));
+    for (std::uint64_t i = 0; i < values.size(); ++i)
+      values[i] = column.number(i / 3, static_cast<std::uint32_t>(i % 3));
     return centers ? structured_centers(grid.size, values, xml_.place(piece)) : values;
   }
 
@@ -137,11 +149,13 @@ private:
     for (const pugi::xml_node array : piece.child("Coordinates").children("DataArray")) {
       if (axis == 3) break;
       const Column values = xml_.read(array, size.nodes[axis]);
-      if (values.components != 1 || values.type() == ColumnType::Text) xml_.refuse(array, field_code::part, "coordinates have one component");
+      if (values.components != 1 || values.type() == ColumnType::Text)
+        xml_.refuse(array, field_code::part, "coordinates have one component");
       for (std::uint64_t i = 0; i < values.rows(); ++i) out[axis].push_back(values.number(i));
       ++axis;
     }
-    if (axis != 3) xml_.refuse(piece, field_code::part, fmt::format("Coordinates has {} arrays instead of 3", axis));
+    if (axis != 3)
+      xml_.refuse(piece, field_code::part, fmt::format("Coordinates has {} arrays instead of 3", axis));
     return out;
   }
 
@@ -153,7 +167,8 @@ private:
     }
     bool same = piece.size() == arrays_.size();
     for (std::size_t i = 0; same && i < piece.size(); ++i)
-      same = piece[i].name == arrays_[i].name && piece[i].components == arrays_[i].components && piece[i].type() == arrays_[i].type();
+      same = piece[i].name == arrays_[i].name && piece[i].components == arrays_[i].components &&
+             piece[i].type() == arrays_[i].type();
     if (!same) xml_.refuse(node, field_code::part, "the pieces of the file have different arrays");
     for (std::size_t i = 0; i < piece.size(); ++i) append(arrays_[i], piece[i]);
   }
@@ -185,16 +200,18 @@ private:
 Frame parse_vtk_xml(Bytes& bytes, Diagnostics& warnings) { return XmlDataset(bytes, warnings).read(); }
 
 Sureness probe_vtk_xml(const Probe& probe) {
-  return probe.head.substr(0, 4096).find("<VTKFile") != std::string_view::npos ? Sureness::Certain : Sureness::No;
+  return probe.head.substr(0, 4096).find("<VTKFile") != std::string_view::npos ? Sureness::Certain
+                                                                               : Sureness::No;
 }
 
 } // namespace
 
 Reader vtk_xml_reader();
 Reader vtk_xml_reader() {
-  return {{"vtk-xml", "VTK XML, ascii, base64 and raw, compressed: points and point data", "vtp vtu vti vtr vts"},
-          probe_vtk_xml,
-          [](std::shared_ptr<Bytes> bytes) { return one_frame("vtk-xml", std::move(bytes), parse_vtk_xml); }};
+  return {
+      {"vtk-xml", "VTK XML, ascii, base64 and raw, compressed: points and point data", "vtp vtu vti vtr vts"},
+      probe_vtk_xml,
+      [](std::shared_ptr<Bytes> bytes) { return one_frame("vtk-xml", std::move(bytes), parse_vtk_xml); }};
 }
 
 } // namespace mote::data

@@ -65,7 +65,8 @@ private:
     const std::uint64_t start = in.at();
     const auto magic = in.number<std::int32_t>("the header of a frame");
     if (magic != magic_1995 && magic != magic_2023)
-      in.refuse_at(start, molecule_code::structure, fmt::format("a frame of an XTC file begins with 1995 or 2023, not with {}", magic));
+      in.refuse_at(start, molecule_code::structure,
+                   fmt::format("a frame of an XTC file begins with 1995 or 2023, not with {}", magic));
     XtcHead head;
     head.long_size = magic == magic_2023;
     const auto atoms = in.number<std::int32_t>("the header of a frame");
@@ -74,9 +75,11 @@ private:
     in.reals(4, head.box, 1.0, "the box of a frame");
     const std::uint64_t at = in.at();
     const auto again = in.number<std::int32_t>("the number of positions");
-    if (atoms < 0) in.refuse_at(start + 4, molecule_code::count, fmt::format("the number of atoms is {}", atoms));
+    if (atoms < 0)
+      in.refuse_at(start + 4, molecule_code::count, fmt::format("the number of atoms is {}", atoms));
     if (again != atoms)
-      in.refuse_at(at, molecule_code::count, fmt::format("the frame has {} atoms, but {} positions", atoms, again));
+      in.refuse_at(at, molecule_code::count,
+                   fmt::format("the frame has {} atoms, but {} positions", atoms, again));
     head.atoms = static_cast<std::uint64_t>(atoms);
     return head;
   }
@@ -84,15 +87,18 @@ private:
   // Stands on the length of the packed bits; returns them and moves behind their padding.
   static std::string_view skip_packed(ByteReader& in, const XtcHead& head) {
     const std::uint64_t at = in.at();
-    const std::int64_t length = head.long_size ? in.number<std::int64_t>("the length of the packed positions")
-                                               : in.number<std::int32_t>("the length of the packed positions");
-    if (length < 0) in.refuse_at(at, molecule_code::count, fmt::format("the length of the packed positions is {}", length));
+    const std::int64_t length = head.long_size
+                                    ? in.number<std::int64_t>("the length of the packed positions")
+                                    : in.number<std::int32_t>("the length of the packed positions");
+    if (length < 0)
+      in.refuse_at(at, molecule_code::count, fmt::format("the length of the packed positions is {}", length));
     const auto bytes = static_cast<std::uint64_t>(length);
     const std::string_view packed = in.take(bytes, "the packed positions");
     in.skip((4 - bytes % 4) % 4, "the padding of the packed positions");
     // an atom takes at least two bits: a number of one bit and a flag
     if (head.atoms > 4 * bytes)
-      in.refuse_at(at, molecule_code::count, fmt::format("{} atoms cannot be packed in {} bytes", head.atoms, bytes));
+      in.refuse_at(at, molecule_code::count,
+                   fmt::format("{} atoms cannot be packed in {} bytes", head.atoms, bytes));
     return packed;
   }
 
@@ -100,11 +106,14 @@ private:
     XtcPacking packing;
     const std::uint64_t at = in.at();
     packing.precision = in.number<float>("the header of the packed positions");
-    for (std::int32_t& value : packing.smallest) value = in.number<std::int32_t>("the header of the packed positions");
-    for (std::int32_t& value : packing.largest) value = in.number<std::int32_t>("the header of the packed positions");
+    for (std::int32_t& value : packing.smallest)
+      value = in.number<std::int32_t>("the header of the packed positions");
+    for (std::int32_t& value : packing.largest)
+      value = in.number<std::int32_t>("the header of the packed positions");
     packing.small_index = in.number<std::int32_t>("the header of the packed positions");
     if (!(packing.precision > 0 && packing.precision < 1e12f))
-      in.refuse_at(at, molecule_code::compressed, fmt::format("the precision of the packed positions is {}", packing.precision));
+      in.refuse_at(at, molecule_code::compressed,
+                   fmt::format("the precision of the packed positions is {}", packing.precision));
     const std::string_view packed = skip_packed(in, head);
     std::vector<double> positions(3 * head.atoms);
     if (const std::string_view wrong = unpack_xtc(packing, packed, positions); !wrong.empty())
@@ -135,7 +144,9 @@ Sureness probe(const Probe& file) {
 Reader xtc_reader() {
   return {{"xtc", "GROMACS compressed trajectory (nm, ps)", "xtc"},
           probe,
-          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> { return std::make_unique<XtcSource>(std::move(bytes)); }};
+          [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
+            return std::make_unique<XtcSource>(std::move(bytes));
+          }};
 }
 
 } // namespace mote::data

@@ -71,7 +71,8 @@ std::string_view Scan::take(std::uint64_t bytes, std::string_view what) {
 double Scan::real(std::string_view what) {
   const std::string_view found = need_word(what);
   double value = 0;
-  if (!parse_real(found, value)) refuse(code::not_a_value, fmt::format("{} is not a number: {}", what, shown(found)));
+  if (!parse_real(found, value))
+    refuse(code::not_a_value, fmt::format("{} is not a number: {}", what, shown(found)));
   return value;
 }
 
@@ -86,7 +87,8 @@ std::int64_t Scan::integer(std::string_view what) {
 std::uint64_t Scan::count(std::string_view what) {
   const std::string_view found = need_word(what);
   std::uint64_t value = 0;
-  if (!parse_count(found, value)) refuse(code::heading, fmt::format("{} is not a count: {}", what, shown(found)));
+  if (!parse_count(found, value))
+    refuse(code::heading, fmt::format("{} is not a count: {}", what, shown(found)));
   return value;
 }
 

@@ -29,10 +29,10 @@ public:
   [[nodiscard]] SourceLoc place_of(std::uint64_t at) const;
   void go_to(std::uint64_t at) { at_ = word_at_ = at; }
 
-  std::string_view word();                     // empty at the end of the file
+  std::string_view word();                           // empty at the end of the file
   std::string_view need_word(std::string_view what); // D006 at the end
-  [[nodiscard]] std::string_view peek();       // word() without moving
-  std::string_view line();                     // the rest of this line, without \r; moves behind \n
+  [[nodiscard]] std::string_view peek();             // word() without moving
+  std::string_view line();                           // the rest of this line, without \r; moves behind \n
   std::string_view take(std::uint64_t bytes, std::string_view what);
   double real(std::string_view what);          // D012
   std::int64_t integer(std::string_view what); // D012
@@ -41,7 +41,8 @@ public:
   // `rows` x `components` numbers as words. A real type gives Double, an integer type Int.
   Column numbers(std::string name, std::uint64_t rows, std::uint32_t components, bool whole);
 
-  [[noreturn]] void refuse(std::string_view code, std::string text, std::vector<std::string> hints = {}) const;
+  [[noreturn]] void refuse(std::string_view code, std::string text,
+                           std::vector<std::string> hints = {}) const;
 
 private:
   const std::string& file_;

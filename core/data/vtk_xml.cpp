@@ -16,9 +16,16 @@ namespace mote::data {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, Scalar>, 10> type_words{{
-    {"Int8", Scalar::Int8}, {"UInt8", Scalar::UInt8}, {"Int16", Scalar::Int16}, {"UInt16", Scalar::UInt16},
-    {"Int32", Scalar::Int32}, {"UInt32", Scalar::UInt32}, {"Int64", Scalar::Int64}, {"UInt64", Scalar::UInt64},
-    {"Float32", Scalar::Float32}, {"Float64", Scalar::Float64},
+    {"Int8", Scalar::Int8},
+    {"UInt8", Scalar::UInt8},
+    {"Int16", Scalar::Int16},
+    {"UInt16", Scalar::UInt16},
+    {"Int32", Scalar::Int32},
+    {"UInt32", Scalar::UInt32},
+    {"Int64", Scalar::Int64},
+    {"UInt64", Scalar::UInt64},
+    {"Float32", Scalar::Float32},
+    {"Float64", Scalar::Float64},
 }};
 
 std::string name_of(pugi::xml_node array) {
@@ -52,8 +59,11 @@ struct VtkXml::Feed {
       out.assign(text.substr(used, bytes));
       used += bytes;
     } else if (!decoder.read(out)) {
-      if (decoder.at_end()) fail(Exit::BadInput, code::ends_early, place(), fmt::format("the base64 text of the array {} ends early", shown(name_of(array))));
-      fail(Exit::BadInput, field_code::base64, place(), fmt::format("the array {} is no base64 text here", shown(name_of(array))));
+      if (decoder.at_end())
+        fail(Exit::BadInput, code::ends_early, place(),
+             fmt::format("the base64 text of the array {} ends early", shown(name_of(array))));
+      fail(Exit::BadInput, field_code::base64, place(),
+           fmt::format("the array {} is no base64 text here", shown(name_of(array))));
     }
     return out;
   }
@@ -63,10 +73,13 @@ VtkXml::VtkXml(Bytes& bytes) : bytes_(bytes) {
   cut_appended();
   // Line ends and entities of the texts stay as they are: values are read from the file itself.
   const pugi::xml_parse_result result = document_.load_buffer_inplace(
-      xml_.data(), xml_.size(), pugi::parse_minimal | pugi::parse_escapes | pugi::parse_wconv_attribute | pugi::parse_cdata, pugi::encoding_utf8);
+      xml_.data(), xml_.size(),
+      pugi::parse_minimal | pugi::parse_escapes | pugi::parse_wconv_attribute | pugi::parse_cdata,
+      pugi::encoding_utf8);
   if (!result) {
     const auto at = static_cast<std::uint64_t>(std::max<std::ptrdiff_t>(result.offset, 0));
-    fail(Exit::BadInput, field_code::markup, text_place(bytes.name(), bytes.view(), at), fmt::format("the XML is malformed: {}", result.description()));
+    fail(Exit::BadInput, field_code::markup, text_place(bytes.name(), bytes.view(), at),
+         fmt::format("the XML is malformed: {}", result.description()));
   }
   root_ = document_.child("VTKFile");
   if (!root_) fail(Exit::BadInput, field_code::part, {bytes.name(), 1, 1}, "the XML has no element VTKFile");
@@ -78,7 +91,8 @@ void VtkXml::cut_appended() {
   const std::string_view all = bytes_.view();
   constexpr std::string_view white = " \t\r\n";
   if (!all.substr(0, all.find_last_not_of(white) + 1).ends_with("</VTKFile>"))
-    fail(Exit::BadInput, code::ends_early, byte_place(bytes_, all.size()), "the file ends early: </VTKFile> is missing");
+    fail(Exit::BadInput, code::ends_early, byte_place(bytes_, all.size()),
+         "the file ends early: </VTKFile> is missing");
   const std::size_t tag = all.find("<AppendedData");
   const std::size_t close = tag == std::string_view::npos ? tag : all.find('>', tag);
   if (close == std::string_view::npos) {
@@ -89,7 +103,8 @@ void VtkXml::cut_appended() {
   const std::size_t end = all.rfind("</AppendedData");
   if (mark == std::string_view::npos || end == std::string_view::npos || mark > end ||
       all.substr(close + 1, mark - close - 1).find_first_not_of(white) != std::string_view::npos)
-    fail(Exit::BadInput, field_code::part, text_place(bytes_.name(), all, close), "AppendedData does not begin with '_' or is not closed");
+    fail(Exit::BadInput, field_code::part, text_place(bytes_.name(), all, close),
+         "AppendedData does not begin with '_' or is not closed");
   xml_ = std::string(all.substr(0, close + 1)) + "</AppendedData></VTKFile>";
   appended_at_ = mark + 1;
   appended_ = all.substr(mark + 1, end - mark - 1);
@@ -97,20 +112,29 @@ void VtkXml::cut_appended() {
 
 void VtkXml::read_head() {
   const std::string_view order = root_.attribute("byte_order").as_string("LittleEndian");
-  if (order != "LittleEndian" && order != "BigEndian") refuse(root_, field_code::part, fmt::format("the byte_order {} is unknown", shown(order)), {"known: LittleEndian, BigEndian"});
+  if (order != "LittleEndian" && order != "BigEndian")
+    refuse(root_, field_code::part, fmt::format("the byte_order {} is unknown", shown(order)),
+           {"known: LittleEndian, BigEndian"});
   order_ = order == "BigEndian" ? Order::Big : Order::Little;
   const std::string_view header = root_.attribute("header_type").as_string("UInt32");
-  if (header != "UInt32" && header != "UInt64") refuse(root_, field_code::part, fmt::format("the header_type {} is unknown", shown(header)), {"known: UInt32, UInt64"});
+  if (header != "UInt32" && header != "UInt64")
+    refuse(root_, field_code::part, fmt::format("the header_type {} is unknown", shown(header)),
+           {"known: UInt32, UInt64"});
   header_size_ = header == "UInt64" ? 8 : 4;
   const std::string_view compressor = root_.attribute("compressor").value();
-  constexpr std::array<std::string_view, 4> known{"", "vtkZLibDataCompressor", "vtkLZ4DataCompressor", "vtkLZMADataCompressor"};
+  constexpr std::array<std::string_view, 4> known{"", "vtkZLibDataCompressor", "vtkLZ4DataCompressor",
+                                                  "vtkLZMADataCompressor"};
   const auto found = std::find(known.begin(), known.end(), compressor);
-  if (found == known.end()) refuse(root_, field_code::variant, fmt::format("the compressor {} is unknown", shown(compressor)), {"known: vtkZLibDataCompressor, vtkLZ4DataCompressor, vtkLZMADataCompressor"});
+  if (found == known.end())
+    refuse(root_, field_code::variant, fmt::format("the compressor {} is unknown", shown(compressor)),
+           {"known: vtkZLibDataCompressor, vtkLZ4DataCompressor, vtkLZMADataCompressor"});
   compressor_ = static_cast<Compressor>(found - known.begin());
   const pugi::xml_node appended = root_.child("AppendedData");
   if (!appended) return;
   const std::string_view encoding = appended.attribute("encoding").as_string("base64");
-  if (encoding != "raw" && encoding != "base64") refuse(appended, field_code::part, fmt::format("the encoding {} is unknown", shown(encoding)), {"known: raw, base64"});
+  if (encoding != "raw" && encoding != "base64")
+    refuse(appended, field_code::part, fmt::format("the encoding {} is unknown", shown(encoding)),
+           {"known: raw, base64"});
   appended_base64_ = encoding == "base64";
 }
 
@@ -119,7 +143,8 @@ SourceLoc VtkXml::place(pugi::xml_node node) const {
   return text_place(bytes_.name(), bytes_.view(), at < 0 ? 0 : static_cast<std::uint64_t>(at));
 }
 
-void VtkXml::refuse(pugi::xml_node node, std::string_view code, std::string text, std::vector<std::string> hints) const {
+void VtkXml::refuse(pugi::xml_node node, std::string_view code, std::string text,
+                    std::vector<std::string> hints) const {
   fail(Exit::BadInput, code, place(node), std::move(text), std::move(hints));
 }
 
@@ -127,21 +152,27 @@ std::uint64_t VtkXml::count(pugi::xml_node node, const char* attribute) const {
   const pugi::xml_attribute found = node.attribute(attribute);
   std::uint64_t value = 0;
   if (!found) refuse(node, field_code::part, fmt::format("{} has no attribute {}", node.name(), attribute));
-  if (!parse_count(trim(found.value()), value)) refuse(node, field_code::part, fmt::format("{} {} is not a count", attribute, shown(found.value())));
+  if (!parse_count(trim(found.value()), value))
+    refuse(node, field_code::part, fmt::format("{} {} is not a count", attribute, shown(found.value())));
   return value;
 }
 
 std::vector<double> VtkXml::numbers(pugi::xml_node node, const char* attribute, std::size_t count) const {
   std::string text = node.attribute(attribute).value();
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
   std::vector<double> out;
   Words words(text);
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     double value = 0;
-    if (!parse_real(word, value)) refuse(node, field_code::part, fmt::format("{} of {} is not a number: {}", attribute, node.name(), shown(word)));
+    if (!parse_real(word, value))
+      refuse(node, field_code::part,
+             fmt::format("{} of {} is not a number: {}", attribute, node.name(), shown(word)));
     out.push_back(value);
   }
-  if (out.size() != count) refuse(node, field_code::part, fmt::format("{} of {} has {} numbers instead of {}", attribute, node.name(), out.size(), count));
+  if (out.size() != count)
+    refuse(node, field_code::part,
+           fmt::format("{} of {} has {} numbers instead of {}", attribute, node.name(), out.size(), count));
   return out;
 }
 
@@ -153,7 +184,9 @@ VtkXml::Feed VtkXml::feed_of(pugi::xml_node array) const {
   if (format == "appended") {
     const std::uint64_t offset = count(array, "offset");
     if (offset > appended_.size())
-      refuse(array, code::ends_early, fmt::format("the array {} begins at byte {} of the appended data, which have {}", shown(name_of(array)), offset, appended_.size()));
+      refuse(array, code::ends_early,
+             fmt::format("the array {} begins at byte {} of the appended data, which have {}",
+                         shown(name_of(array)), offset, appended_.size()));
     feed.text = appended_.substr(offset);
     feed.begin = appended_at_ + offset;
     feed.encoded = appended_base64_;
@@ -174,14 +207,17 @@ VtkXml::Feed VtkXml::feed_of(pugi::xml_node array) const {
 
 std::uint64_t VtkXml::header_word(Feed& feed) const {
   const std::string raw = feed.read(header_size_);
-  return header_size_ == 8 ? load_number<std::uint64_t>(raw.data(), order_) : load_number<std::uint32_t>(raw.data(), order_);
+  return header_size_ == 8 ? load_number<std::uint64_t>(raw.data(), order_)
+                           : load_number<std::uint32_t>(raw.data(), order_);
 }
 
 // `exact`: the length must be `wanted`; otherwise it is not known and `wanted` is ignored.
 std::string VtkXml::whole(Feed& feed, std::uint64_t wanted, bool exact) const {
   const std::uint64_t length = header_word(feed);
   if (exact && length != wanted)
-    refuse(feed.array, field_code::length, fmt::format("the array {} has {} bytes, but {} are needed", shown(name_of(feed.array)), length, wanted));
+    refuse(feed.array, field_code::length,
+           fmt::format("the array {} has {} bytes, but {} are needed", shown(name_of(feed.array)), length,
+                       wanted));
   return feed.read(length);
 }
 
@@ -191,15 +227,19 @@ std::string VtkXml::blocks(Feed& feed, std::uint64_t wanted, bool exact) const {
   const std::uint64_t count = header_word(feed), size = header_word(feed), last = header_word(feed);
   const std::uint64_t total = count == 0 ? 0 : plus(times(count - 1, size), last ? last : size);
   if (exact && total != wanted)
-    refuse(feed.array, field_code::length, fmt::format("the array {} has {} bytes, but {} are needed", name, total, wanted));
-  need_bytes(times(count, header_size_), feed.left(), feed.place(), fmt::format("the block table of {}", name));
+    refuse(feed.array, field_code::length,
+           fmt::format("the array {} has {} bytes, but {} are needed", name, total, wanted));
+  need_bytes(times(count, header_size_), feed.left(), feed.place(),
+             fmt::format("the block table of {}", name));
   std::vector<std::uint64_t> packed(count);
   std::uint64_t sum = 0;
   for (std::uint64_t& bytes : packed) sum = plus(sum, bytes = header_word(feed));
   need_bytes(sum, feed.left(), feed.place(), fmt::format("the array {}", name));
-  if (last > size || total / 2000 > sum + 1000) // zlib packs at most 1032 : 1, LZ4 255 : 1, LZMA about 7000 : 1
+  if (last > size ||
+      total / 2000 > sum + 1000) // zlib packs at most 1032 : 1, LZ4 255 : 1, LZMA about 7000 : 1
     if (compressor_ != Compressor::Lzma || last > size || total / 10000 > sum + 1000)
-      refuse(feed.array, field_code::packed, fmt::format("the block sizes of the array {} are impossible", name));
+      refuse(feed.array, field_code::packed,
+             fmt::format("the block sizes of the array {} are impossible", name));
   need_memory(total, feed.place(), fmt::format("the values of the array {}", name));
   std::string out(total, '\0');
   for (std::uint64_t b = 0; b < count; ++b) {
@@ -209,18 +249,22 @@ std::string VtkXml::blocks(Feed& feed, std::uint64_t wanted, bool exact) const {
     const bool good = compressor_ == Compressor::Zlib  ? unpack_zlib(block, to)
                       : compressor_ == Compressor::Lz4 ? unpack_lz4(block, to)
                                                        : unpack_lzma(block, to);
-    if (!good) fail(Exit::BadInput, field_code::packed, at, fmt::format("block {} of the array {} is damaged", b, name));
+    if (!good)
+      fail(Exit::BadInput, field_code::packed, at,
+           fmt::format("block {} of the array {} is damaged", b, name));
   }
   return out;
 }
 
-Column VtkXml::ascii(pugi::xml_node array, const std::string& name, std::uint64_t rows, std::uint32_t components, bool real) const {
+Column VtkXml::ascii(pugi::xml_node array, const std::string& name, std::uint64_t rows,
+                     std::uint32_t components, bool real) const {
   const Feed feed = feed_of(array);
   Scan scan(bytes_.name(), bytes_.view().substr(0, feed.begin + feed.text.size()));
   scan.go_to(feed.begin);
   Column out = scan.numbers(name, rows, components, !real);
   if (!scan.word().empty())
-    scan.refuse(field_code::length, fmt::format("the array {} has more than {} numbers", shown(name), times(rows, components)));
+    scan.refuse(field_code::length,
+                fmt::format("the array {} has more than {} numbers", shown(name), times(rows, components)));
   return out;
 }
 
@@ -235,14 +279,17 @@ Column VtkXml::texts(pugi::xml_node array, const std::string& name, std::uint64_
     std::int64_t value = 0;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
       if (!parse_integer(word, value) || value < -128 || value > 255)
-        refuse(array, code::not_a_value, fmt::format("a byte of the texts {} is not a number: {}", shown(name), shown(word)));
+        refuse(array, code::not_a_value,
+               fmt::format("a byte of the texts {} is not a number: {}", shown(name), shown(word)));
       bytes += static_cast<char>(value);
     }
   } else {
     bytes = compressor_ == Compressor::None ? whole(feed, 0, false) : blocks(feed, 0, false);
   }
   if (static_cast<std::uint64_t>(std::count(bytes.begin(), bytes.end(), '\0')) != rows)
-    refuse(array, field_code::length, fmt::format("the array {} has {} texts, but {} are needed", shown(name), std::count(bytes.begin(), bytes.end(), '\0'), rows));
+    refuse(array, field_code::length,
+           fmt::format("the array {} has {} texts, but {} are needed", shown(name),
+                       std::count(bytes.begin(), bytes.end(), '\0'), rows));
   TextColumn column;
   std::vector<std::string> values;
   for (std::size_t at = 0; at < bytes.size(); at += values.back().size() + 1) {
@@ -251,9 +298,12 @@ Column VtkXml::texts(pugi::xml_node array, const std::string& name, std::uint64_
   }
   column.dictionary = values;
   std::sort(column.dictionary.begin(), column.dictionary.end());
-  column.dictionary.erase(std::unique(column.dictionary.begin(), column.dictionary.end()), column.dictionary.end());
+  column.dictionary.erase(std::unique(column.dictionary.begin(), column.dictionary.end()),
+                          column.dictionary.end());
   for (const std::string& value : values)
-    column.codes.push_back(static_cast<std::uint32_t>(std::lower_bound(column.dictionary.begin(), column.dictionary.end(), value) - column.dictionary.begin()));
+    column.codes.push_back(static_cast<std::uint32_t>(
+        std::lower_bound(column.dictionary.begin(), column.dictionary.end(), value) -
+        column.dictionary.begin()));
   return {name, 1, std::move(column), {}};
 }
 
@@ -264,18 +314,25 @@ Column VtkXml::read(pugi::xml_node array, std::uint64_t rows) const {
   std::optional<Scalar> scalar;
   for (const auto& [word, known] : type_words)
     if (word == type) scalar = known;
-  if (!scalar) refuse(array, field_code::variant, fmt::format("values of type {} cannot be read", shown(type)), {"readable: Int8 ... UInt64, Float32, Float64, String"});
+  if (!scalar)
+    refuse(array, field_code::variant, fmt::format("values of type {} cannot be read", shown(type)),
+           {"readable: Int8 ... UInt64, Float32, Float64, String"});
   std::uint64_t components = 1;
   if (array.attribute("NumberOfComponents")) components = count(array, "NumberOfComponents");
-  if (components == 0 || components > max_fields) refuse(array, field_code::part, fmt::format("'{}' components are not possible; 1 to {} are", components, max_fields));
+  if (components == 0 || components > max_fields)
+    refuse(array, field_code::part,
+           fmt::format("'{}' components are not possible; 1 to {} are", components, max_fields));
   const auto width = static_cast<std::uint32_t>(components);
   const std::string_view format = array.attribute("format").as_string("ascii");
   if (format == "ascii") return ascii(array, name, rows, width, is_real(*scalar));
-  if (format != "binary" && format != "appended") refuse(array, field_code::part, fmt::format("the format {} is unknown", shown(format)), {"known: ascii, binary, appended"});
+  if (format != "binary" && format != "appended")
+    refuse(array, field_code::part, fmt::format("the format {} is unknown", shown(format)),
+           {"known: ascii, binary, appended"});
   Feed feed = feed_of(array);
   const std::uint64_t wanted = times(times(rows, components), size_of(*scalar));
   if (rows == 0 && feed.text.empty()) return unpack(name, "", {*scalar, order_, 0, width, 0});
-  const std::string bytes = compressor_ == Compressor::None ? whole(feed, wanted, true) : blocks(feed, wanted, true);
+  const std::string bytes =
+      compressor_ == Compressor::None ? whole(feed, wanted, true) : blocks(feed, wanted, true);
   return unpack(name, bytes, {*scalar, order_, rows, width, 0});
 }
 

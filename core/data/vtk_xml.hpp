@@ -21,11 +21,13 @@ public:
 
   [[nodiscard]] pugi::xml_node root() const { return root_; } // <VTKFile>
   [[nodiscard]] SourceLoc place(pugi::xml_node node) const;
-  [[noreturn]] void refuse(pugi::xml_node node, std::string_view code, std::string text, std::vector<std::string> hints = {}) const;
+  [[noreturn]] void refuse(pugi::xml_node node, std::string_view code, std::string text,
+                           std::vector<std::string> hints = {}) const;
 
   // Attributes. A missing one is D062; so is one that is no number. `count` numbers in one attribute.
   [[nodiscard]] std::uint64_t count(pugi::xml_node node, const char* attribute) const;
-  [[nodiscard]] std::vector<double> numbers(pugi::xml_node node, const char* attribute, std::size_t count) const;
+  [[nodiscard]] std::vector<double> numbers(pugi::xml_node node, const char* attribute,
+                                            std::size_t count) const;
 
   // The values of a DataArray of `rows` rows; texts (type String) give a Text column.
   [[nodiscard]] Column read(pugi::xml_node array, std::uint64_t rows) const;
@@ -39,7 +41,8 @@ private:
   [[nodiscard]] std::uint64_t header_word(Feed& feed) const;
   [[nodiscard]] std::string whole(Feed& feed, std::uint64_t wanted, bool exact) const;
   [[nodiscard]] std::string blocks(Feed& feed, std::uint64_t wanted, bool exact) const;
-  [[nodiscard]] Column ascii(pugi::xml_node array, const std::string& name, std::uint64_t rows, std::uint32_t components, bool real) const;
+  [[nodiscard]] Column ascii(pugi::xml_node array, const std::string& name, std::uint64_t rows,
+                             std::uint32_t components, bool real) const;
   [[nodiscard]] Column texts(pugi::xml_node array, const std::string& name, std::uint64_t rows) const;
 
   const Bytes& bytes_;

@@ -14,13 +14,13 @@ __extension__ using Wide = unsigned __int128; // three digits of 24 bits do not 
 // Sizes of the cubes for differences: entry i is about 2^(i/3), so that three digits of this radix
 // take i bits. The values are part of the format.
 constexpr std::array<std::uint32_t, 73> cube_sizes{
-    0,       0,       0,       0,       0,       0,       0,       0,       0,        8,        10,      12,
-    16,      20,      25,      32,      40,      50,      64,      80,      101,      128,      161,     203,
-    256,     322,     406,     512,     645,     812,     1024,    1290,    1625,     2048,     2580,    3250,
-    4096,    5060,    6501,    8192,    10321,   13003,   16384,   20642,   26007,    32768,    41285,   52015,
-    65536,   82570,   104031,  131072,  165140,  208063,  262144,  330280,  416127,   524287,   660561,  832255,
-    1048576, 1321122, 1664510, 2097152, 2642245, 3329021, 4194304, 5284491, 6658042,  8388607,  10568983, 13316085,
-    16777216};
+    0,       0,       0,       0,       0,        0,        0,       0,       0,       8,       10,
+    12,      16,      20,      25,      32,       40,       50,      64,      80,      101,     128,
+    161,     203,     256,     322,     406,      512,      645,     812,     1024,    1290,    1625,
+    2048,    2580,    3250,    4096,    5060,     6501,     8192,    10321,   13003,   16384,   20642,
+    26007,   32768,   41285,   52015,   65536,    82570,    104031,  131072,  165140,  208063,  262144,
+    330280,  416127,  524287,  660561,  832255,   1048576,  1321122, 1664510, 2097152, 2642245, 3329021,
+    4194304, 5284491, 6658042, 8388607, 10568983, 13316085, 16777216};
 constexpr std::int32_t first_size = 9;
 
 using Triple = std::array<std::int64_t, 3>;
@@ -121,7 +121,8 @@ private:
       if (in_.overrun()) return "the packed bits end early";
       if (run_length > out_.size() - written_ - 3) return "a run of differences goes behind the last atom";
       run_length ? unpack_run(first, run_length) : put(first);
-      if (change && !set_index(index_ + change)) return "the index of the size of differences leaves its table";
+      if (change && !set_index(index_ + change))
+        return "the index of the size of differences leaves its table";
     }
     return in_.overrun() ? "the packed bits end early" : "";
   }

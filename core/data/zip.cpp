@@ -19,7 +19,8 @@ constexpr std::uint32_t top32 = 0xffffffff;
 
 void expect_mark(ByteReader& in, std::uint32_t wanted, std::string_view what) {
   const std::uint64_t at = in.at();
-  if (in.number<std::uint32_t>(what) != wanted) in.refuse_at(at, field_code::packed, fmt::format("the archive is damaged: {} does not begin here", what));
+  if (in.number<std::uint32_t>(what) != wanted)
+    in.refuse_at(at, field_code::packed, fmt::format("the archive is damaged: {} does not begin here", what));
 }
 
 // Where the central directory begins and how many members it has.
@@ -30,7 +31,8 @@ Directory find_directory(const Bytes& archive) {
   const std::string_view all = archive.view();
   const std::size_t end = all.rfind(std::string_view("PK\5\6", 4));
   if (end == std::string_view::npos || all.size() - end < 22)
-    fail(Exit::BadInput, code::ends_early, byte_place(archive, all.size()), "the archive ends early: its directory is missing");
+    fail(Exit::BadInput, code::ends_early, byte_place(archive, all.size()),
+         "the archive ends early: its directory is missing");
   ByteReader in(archive, Order::Little, end + 10);
   Directory out;
   out.count = in.number<std::uint16_t>("the number of members");
@@ -68,7 +70,10 @@ void read_extra(ByteReader& in, std::uint64_t end, ZipMember& member) {
 std::vector<ZipMember> zip_members(const Bytes& archive) {
   const Directory directory = find_directory(archive);
   ByteReader in(archive, Order::Little, directory.begin);
-  if (directory.count > in.left() / 46) in.refuse(code::ends_early, fmt::format("the archive ends early: {} members are announced, but {} bytes are left", directory.count, in.left()));
+  if (directory.count > in.left() / 46)
+    in.refuse(code::ends_early,
+              fmt::format("the archive ends early: {} members are announced, but {} bytes are left",
+                          directory.count, in.left()));
   std::vector<ZipMember> out(directory.count);
   for (ZipMember& member : out) {
     expect_mark(in, 0x02014b50, "an entry of the directory");
@@ -96,7 +101,9 @@ std::vector<ZipMember> zip_members(const Bytes& archive) {
 std::string unzip(const Bytes& archive, const ZipMember& member) {
   ByteReader in(archive, Order::Little, member.header);
   expect_mark(in, 0x04034b50, fmt::format("the member {}", shown(member.name)));
-  if (member.flags & 1) in.refuse_at(member.header, field_code::variant, fmt::format("the member {} is encrypted", shown(member.name)));
+  if (member.flags & 1)
+    in.refuse_at(member.header, field_code::variant,
+                 fmt::format("the member {} is encrypted", shown(member.name)));
   in.skip(22, "the header of a member");
   const auto name = in.number<std::uint16_t>("the header of a member");
   const auto extra = in.number<std::uint16_t>("the header of a member");
@@ -104,19 +111,30 @@ std::string unzip(const Bytes& archive, const ZipMember& member) {
   const std::uint64_t begin = in.at();
   const std::string_view packed = in.take(member.packed, fmt::format("the member {}", shown(member.name)));
   if (member.method != 0 && member.method != 8)
-    in.refuse_at(begin, field_code::variant, fmt::format("the member {} is packed by method '{}', which cannot be read", shown(member.name), member.method), {"readable: 0 (stored), 8 (deflated)"});
-  const bool possible = member.method == 0 ? member.size == member.packed : member.size / 1040 <= member.packed; // deflate: at most 1032 : 1
-  if (!possible) in.refuse_at(begin, field_code::packed, fmt::format("the member {} has {} bytes packed as {}, which is impossible", shown(member.name), member.size, member.packed));
+    in.refuse_at(begin, field_code::variant,
+                 fmt::format("the member {} is packed by method '{}', which cannot be read",
+                             shown(member.name), member.method),
+                 {"readable: 0 (stored), 8 (deflated)"});
+  const bool possible = member.method == 0 ? member.size == member.packed
+                                           : member.size / 1040 <= member.packed; // deflate: at most 1032 : 1
+  if (!possible)
+    in.refuse_at(begin, field_code::packed,
+                 fmt::format("the member {} has {} bytes packed as {}, which is impossible",
+                             shown(member.name), member.size, member.packed));
   need_memory(member.size, byte_place(archive, begin), fmt::format("the values of {}", shown(member.name)));
   std::string out(packed);
   if (member.method == 8) {
     out.assign(member.size, '\0');
-    if (!unpack_deflate(packed, out)) in.refuse_at(begin, field_code::packed, fmt::format("the member {} is damaged", shown(member.name)));
+    if (!unpack_deflate(packed, out))
+      in.refuse_at(begin, field_code::packed, fmt::format("the member {} is damaged", shown(member.name)));
   }
   uLong check = ::crc32(0, nullptr, 0);
   for (std::size_t at = 0; at < out.size(); at += 1u << 30)
-    check = ::crc32(check, reinterpret_cast<const Bytef*>(out.data() + at), static_cast<uInt>(std::min<std::size_t>(1u << 30, out.size() - at)));
-  if (check != member.check) in.refuse_at(begin, field_code::packed, fmt::format("the member {} is damaged: its check sum differs", shown(member.name)));
+    check = ::crc32(check, reinterpret_cast<const Bytef*>(out.data() + at),
+                    static_cast<uInt>(std::min<std::size_t>(1u << 30, out.size() - at)));
+  if (check != member.check)
+    in.refuse_at(begin, field_code::packed,
+                 fmt::format("the member {} is damaged: its check sum differs", shown(member.name)));
   return out;
 }
 

@@ -13,6 +13,10 @@
 #include <vector>
 
 namespace mote::gpu {
+
+// Contents of fresh memory with fill_new_memory: as a float a NaN, as an integer nothing anybody means.
+inline constexpr std::uint32_t loud_word = 0x7FC0DEADu;
+
 namespace cmd {
 
 struct BeginRender { std::uint32_t pass{}; };

@@ -108,6 +108,7 @@ void create_device(DeviceCore& core, Feature asked) {
 } // namespace vk
 
 Device Adapter::request_device(const DeviceDescriptor& descriptor, Error& error) const {
+  if (!impl_ && !error.code.empty()) return {}; // `error` says already why there is no adapter
   auto core = std::make_shared<vk::DeviceCore>();
   auto impl = std::make_shared<Device::Impl>();
   try {

@@ -212,7 +212,8 @@ public:
   [[nodiscard]] const AdapterInfo& info() const;
   [[nodiscard]] const Limits& limits() const;
   [[nodiscard]] Feature features() const;
-  // On failure: an invalid Device and `error`.
+  // On failure: an invalid Device and `error`. Of an empty Adapter: an `error` that is set already stays as
+  // it is, so that instance, adapter and device can be asked for in a row and `error` read once.
   [[nodiscard]] Device request_device(const DeviceDescriptor& descriptor, Error& error) const;
 };
 

@@ -66,8 +66,8 @@ std::vector<Adapter> Instance::adapters() const {
 
 Adapter Instance::request_adapter(const AdapterOptions& options, Error& error) const {
   if (!impl_) {
-    error = {ErrorFilter::Validation, "V-OBJ-001", "[Instance] was never made: it is an empty handle.", {}};
-    return {};
+    if (error.code.empty()) error = {ErrorFilter::Validation, "V-OBJ-001", "[Instance] was never made: it is an empty handle.", {}};
+    return {}; // else `error` says already why
   }
   std::vector<Adapter> found = adapters();
   std::string wanted(options.name);

@@ -8,9 +8,6 @@
 namespace mote::gpu {
 namespace {
 
-// Loud contents of fresh memory: as a float a NaN, as an integer nothing anybody means.
-constexpr std::uint32_t loud_word = 0x7FC0DEADu;
-
 VkClearColorValue loud_color(TextureFormat format) {
   VkClearColorValue value{};
   switch (format_info(format).kind) {

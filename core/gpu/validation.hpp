@@ -55,7 +55,6 @@ struct PipelineFacts {
   std::vector<std::uint64_t> vertex_strides{};
   std::vector<VertexStepMode> vertex_steps{};
   std::uint32_t push_constants_used{}; // bytes
-  bool uses_blend_constant{};
 };
 
 void check_feature(const DeviceFacts& device, Feature feature, std::string_view what); // V-FEAT-001

@@ -16,7 +16,9 @@ constexpr std::uint32_t end_of_block = 256, literal_codes = 286, shortest_run = 
 // A token: a literal byte, or 256 + length - 3 for a run of the byte before it.
 using Tokens = std::vector<std::uint16_t>;
 
-struct LengthCode { std::uint32_t symbol{}, extra_bits{}, extra{}; };
+struct LengthCode {
+  std::uint32_t symbol{}, extra_bits{}, extra{};
+};
 // RFC 1951, 3.2.5: symbols 257..285 for lengths 3..258.
 LengthCode length_code(std::uint32_t length) {
   if (length == 258) return {285, 0, 0};
@@ -158,7 +160,10 @@ Tokens find_runs(std::span<const std::uint8_t> in) {
 }
 
 // The code lengths in the header, with 16 (repeat the last), 17 and 18 (zeros); RFC 1951, 3.2.7.
-struct LengthItem { std::uint8_t symbol{}, extra_bits{}; std::uint32_t extra{}; };
+struct LengthItem {
+  std::uint8_t symbol{}, extra_bits{};
+  std::uint32_t extra{};
+};
 std::vector<LengthItem> pack_lengths(const std::vector<std::uint8_t>& lengths) {
   std::vector<LengthItem> items;
   for (std::size_t i = 0; i < lengths.size();) {
@@ -183,7 +188,8 @@ std::vector<LengthItem> pack_lengths(const std::vector<std::uint8_t>& lengths) {
 }
 
 void put_header(BitWriter& out, const std::vector<std::uint8_t>& lengths, bool final) {
-  constexpr std::array<std::uint8_t, 19> order{16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};
+  constexpr std::array<std::uint8_t, 19> order{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                               11, 4,  12, 3, 13, 2, 14, 1, 15};
   std::vector<std::uint8_t> all = lengths;
   all.push_back(1); // one distance code: distance 1, one bit
   const std::vector<LengthItem> items = pack_lengths(all);
@@ -209,11 +215,13 @@ void put_block(BitWriter& out, std::span<const std::uint8_t> input, bool final) 
   for (const std::uint16_t token : tokens) ++used[token];
   std::vector<std::uint32_t> counts(literal_codes);
   std::copy_n(used.begin(), 256, counts.begin());
-  for (std::uint32_t length = 3; length <= longest_run; ++length) counts[length_code(length).symbol] += used[253 + length];
+  for (std::uint32_t length = 3; length <= longest_run; ++length)
+    counts[length_code(length).symbol] += used[253 + length];
   counts[end_of_block] = 1;
   const auto lengths = code_lengths(counts, 15);
   const auto codes = codes_of(lengths);
-  std::array<std::uint32_t, 512> bits{}, sizes{}; // of whole tokens: code, extra bits, one zero for the distance
+  std::array<std::uint32_t, 512> bits{},
+      sizes{}; // of whole tokens: code, extra bits, one zero for the distance
   for (std::uint32_t i = 0; i < 256; ++i) bits[i] = codes[i], sizes[i] = lengths[i];
   for (std::uint32_t length = 3; length <= longest_run; ++length) {
     const LengthCode c = length_code(length);

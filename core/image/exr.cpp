@@ -5,8 +5,6 @@
 #include "core/base/diagnostic.hpp"
 #include "core/image/read_file.hpp"
 
-#include <fmt/format.h>
-
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -15,6 +13,7 @@
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
+#include <fmt/format.h>
 #include <half.h>
 
 #include <algorithm>
@@ -30,7 +29,9 @@ namespace mote {
 namespace {
 void start_threads() {
   static std::once_flag once;
-  std::call_once(once, [] { Imf::setGlobalThreadCount(static_cast<int>(std::min(4u, std::thread::hardware_concurrency()))); });
+  std::call_once(once, [] {
+    Imf::setGlobalThreadCount(static_cast<int>(std::min(4u, std::thread::hardware_concurrency())));
+  });
 }
 
 class MemoryOut : public Imf::OStream {
@@ -77,11 +78,13 @@ Imf::PixelType pixel_type(ExrType type) {
   return type == ExrType::Half ? Imf::HALF : type == ExrType::Float ? Imf::FLOAT : Imf::UINT;
 }
 
-void check_planes(const std::string& path, std::uint32_t width, std::uint32_t height, const std::vector<ExrPlane>& planes) {
+void check_planes(const std::string& path, std::uint32_t width, std::uint32_t height,
+                  const std::vector<ExrPlane>& planes) {
   constexpr std::uint32_t most = std::numeric_limits<std::int32_t>::max() / 2;
   if (width == 0 || height == 0 || width > most || height > most || planes.empty())
     fail(Exit::Failed, "I008", {path},
-         fmt::format("a picture of {} x {} pixels and {} channels cannot be stored as EXR", width, height, planes.size()));
+         fmt::format("a picture of {} x {} pixels and {} channels cannot be stored as EXR", width, height,
+                     planes.size()));
   std::set<std::string> names;
   for (const ExrPlane& plane : planes) {
     const bool filled = plane.type == ExrType::Uint ? plane.uints != nullptr : plane.floats != nullptr;
@@ -107,7 +110,8 @@ Imf::FrameBuffer frame_of(std::uint32_t width, std::size_t count, const std::vec
       base = plane.type == ExrType::Float ? reinterpret_cast<const char*>(plane.floats)
                                           : reinterpret_cast<const char*>(plane.uints);
     }
-    frame.insert(plane.name, Imf::Slice(pixel_type(plane.type), const_cast<char*>(base), step, step * width)); // NOLINT
+    frame.insert(plane.name,
+                 Imf::Slice(pixel_type(plane.type), const_cast<char*>(base), step, step * width)); // NOLINT
   }
   return frame;
 }
@@ -125,7 +129,9 @@ ExrPicture read_stream(MemoryIn& stream) {
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
       throw std::runtime_error(fmt::format("the channel '{}' is subsampled", it.name()));
     const Imf::PixelType type = it.channel().type;
-    ExrChannel channel{it.name(), type == Imf::UINT ? ExrType::Uint : type == Imf::HALF ? ExrType::Half : ExrType::Float};
+    ExrChannel channel{it.name(), type == Imf::UINT   ? ExrType::Uint
+                                  : type == Imf::HALF ? ExrType::Half
+                                                      : ExrType::Float};
     (type == Imf::UINT) ? channel.uints.resize(count) : channel.floats.resize(count);
     out.channels.push_back(std::move(channel));
   }
@@ -134,7 +140,8 @@ ExrPicture read_stream(MemoryIn& stream) {
     const bool is_uint = c.type == ExrType::Uint;
     char* base = is_uint ? reinterpret_cast<char*>(c.uints.data()) : reinterpret_cast<char*>(c.floats.data());
     // a slice's base is the address of pixel (0, 0), which may lie outside the window
-    const std::ptrdiff_t shift = window.min.x * std::ptrdiff_t{4} + window.min.y * static_cast<std::ptrdiff_t>(row);
+    const std::ptrdiff_t shift =
+        window.min.x * std::ptrdiff_t{4} + window.min.y * static_cast<std::ptrdiff_t>(row);
     frame.insert(c.name, Imf::Slice(is_uint ? Imf::UINT : Imf::FLOAT, base - shift, 4, row));
   }
   file.setFrameBuffer(frame);
@@ -146,15 +153,16 @@ ExrPicture read_stream(MemoryIn& stream) {
 }
 } // namespace
 
-void write_exr(const std::string& path, std::uint32_t width, std::uint32_t height, const std::vector<ExrPlane>& planes,
-               const ExrAttributes& attributes) {
+void write_exr(const std::string& path, std::uint32_t width, std::uint32_t height,
+               const std::vector<ExrPlane>& planes, const ExrAttributes& attributes) {
   check_planes(path, width, height, planes);
   start_threads();
   Imf::Header header(static_cast<int>(width), static_cast<int>(height));
   header.compression() = Imf::ZIP_COMPRESSION;
   header.zipCompressionLevel() = 1;
   for (const auto& [name, value] : attributes) header.insert(name, Imf::StringAttribute(value));
-  for (const ExrPlane& plane : planes) header.channels().insert(plane.name, Imf::Channel(pixel_type(plane.type)));
+  for (const ExrPlane& plane : planes)
+    header.channels().insert(plane.name, Imf::Channel(pixel_type(plane.type)));
   MemoryOut stream(path.c_str());
   std::vector<std::vector<half>> halves;
   const Imf::FrameBuffer frame = frame_of(width, std::size_t{width} * height, planes, halves);
@@ -169,7 +177,8 @@ void write_exr(const std::string& path, std::uint32_t width, std::uint32_t heigh
 }
 
 const ExrChannel* ExrPicture::find(const std::string& name) const {
-  const auto it = std::find_if(channels.begin(), channels.end(), [&](const ExrChannel& c) { return c.name == name; });
+  const auto it =
+      std::find_if(channels.begin(), channels.end(), [&](const ExrChannel& c) { return c.name == name; });
   return it == channels.end() ? nullptr : &*it;
 }
 

@@ -28,8 +28,8 @@ using ExrAttributes = std::vector<std::pair<std::string, std::string>>;
 
 // Whole or not at all; "-" is standard output. Failure(Failed) I001..I003; I008 for an empty picture,
 // no channel, two channels of one name or a plane without values.
-void write_exr(const std::string& path, std::uint32_t width, std::uint32_t height, const std::vector<ExrPlane>& planes,
-               const ExrAttributes& attributes = {});
+void write_exr(const std::string& path, std::uint32_t width, std::uint32_t height,
+               const std::vector<ExrPlane>& planes, const ExrAttributes& attributes = {});
 
 struct ExrChannel {
   std::string name{};

@@ -17,14 +17,22 @@ namespace mote {
 
 // "<f4", "<u4", "|u1", ...: NumPy's name of a type on a little-endian machine.
 template <class T> constexpr std::string_view npy_type() {
-  if constexpr (std::is_same_v<T, float>) return "<f4";
-  else if constexpr (std::is_same_v<T, double>) return "<f8";
-  else if constexpr (std::is_same_v<T, std::uint8_t>) return "|u1";
-  else if constexpr (std::is_same_v<T, std::uint16_t>) return "<u2";
-  else if constexpr (std::is_same_v<T, std::uint32_t>) return "<u4";
-  else if constexpr (std::is_same_v<T, std::uint64_t>) return "<u8";
-  else if constexpr (std::is_same_v<T, std::int32_t>) return "<i4";
-  else if constexpr (std::is_same_v<T, std::int64_t>) return "<i8";
+  if constexpr (std::is_same_v<T, float>)
+    return "<f4";
+  else if constexpr (std::is_same_v<T, double>)
+    return "<f8";
+  else if constexpr (std::is_same_v<T, std::uint8_t>)
+    return "|u1";
+  else if constexpr (std::is_same_v<T, std::uint16_t>)
+    return "<u2";
+  else if constexpr (std::is_same_v<T, std::uint32_t>)
+    return "<u4";
+  else if constexpr (std::is_same_v<T, std::uint64_t>)
+    return "<u8";
+  else if constexpr (std::is_same_v<T, std::int32_t>)
+    return "<i4";
+  else if constexpr (std::is_same_v<T, std::int64_t>)
+    return "<i8";
 }
 
 // `type`: any NumPy name, e.g. "<f2" for half floats. Failure(Failed) I001..I003; I008 when the bytes
@@ -38,9 +46,9 @@ void write_npy(const std::string& path, std::span<const std::size_t> shape, std:
 }
 
 struct NpyArray {
-  std::string type{};             // little-endian name, "<f4"
+  std::string type{}; // little-endian name, "<f4"
   std::vector<std::size_t> shape{};
-  std::vector<std::byte> bytes{}; // C order, little-endian whatever the file had
+  std::vector<std::byte> bytes{};         // C order, little-endian whatever the file had
   [[nodiscard]] std::size_t size() const; // number of values
   // Copies the values out; empty when the type is another one.
   template <class T> [[nodiscard]] std::vector<T> values() const {

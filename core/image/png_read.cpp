@@ -41,7 +41,8 @@ bool read_all(png_structp png, png_infop info, Input& input, PngPicture& out) {
   out.width = png_get_image_width(png, info);
   out.height = png_get_image_height(png, info);
   const int depth = png_get_bit_depth(png, info);
-  out.has_alpha = (png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(png, info, PNG_INFO_tRNS) != 0;
+  out.has_alpha = (png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) != 0 ||
+                  png_get_valid(png, info, PNG_INFO_tRNS) != 0;
   png_set_expand(png); // palettes, 1..4 bits, transparent colors
   png_set_gray_to_rgb(png);
   png_set_add_alpha(png, 0xffff, PNG_FILLER_AFTER);
@@ -50,12 +51,16 @@ bool read_all(png_structp png, png_infop info, Input& input, PngPicture& out) {
   png_read_update_info(png, info);
   const std::size_t values = std::size_t{out.width} * out.height * 4, row = std::size_t{out.width} * 4;
   // a lying header must not cost gigabytes: deflate cannot expand by more than about 1032
-  if (values / 2500 > input.bytes.size() * 8) png_error(png, "the header promises more pixels than the file can hold");
-  if (depth == 16) out.rgba16.resize(values);
-  else out.rgba8.resize(values);
+  if (values / 2500 > input.bytes.size() * 8)
+    png_error(png, "the header promises more pixels than the file can hold");
+  if (depth == 16)
+    out.rgba16.resize(values);
+  else
+    out.rgba8.resize(values);
   for (int pass = 0; pass < passes; ++pass)
     for (std::size_t y = 0; y < out.height; ++y)
-      png_read_row(png, depth == 16 ? reinterpret_cast<png_bytep>(&out.rgba16[y * row]) : &out.rgba8[y * row], nullptr);
+      png_read_row(png, depth == 16 ? reinterpret_cast<png_bytep>(&out.rgba16[y * row]) : &out.rgba8[y * row],
+                   nullptr);
   png_read_end(png, info);
   return true;
 }

@@ -20,7 +20,8 @@ namespace mote {
 
 namespace {
 using Bytes = std::vector<std::byte>;
-constexpr std::uint32_t strip_bytes = 1u << 18; // filtered bytes a strip; fixed, so that threads do not matter
+constexpr std::uint32_t strip_bytes = 1u
+                                      << 18; // filtered bytes a strip; fixed, so that threads do not matter
 
 void put32(Bytes& out, std::uint32_t v) {
   for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<std::byte>(v >> shift));
@@ -39,7 +40,8 @@ void put_text(Bytes& out, const std::string& key, const std::string& value) {
   std::string data;
   for (const char c : std::string_view(key).substr(0, 79)) data += c > ' ' && c < 127 ? c : '_';
   if (data.empty()) data += '_';
-  const bool ascii = std::all_of(value.begin(), value.end(), [](char c) { return (c >= ' ' && c < 127) || c == '\n'; });
+  const bool ascii =
+      std::all_of(value.begin(), value.end(), [](char c) { return (c >= ' ' && c < 127) || c == '\n'; });
   // tEXt is Latin-1; iTXt: no compression, no language, no translated key, UTF-8
   data += ascii ? std::string(1, '\0') : std::string(5, '\0');
   for (const char c : value)
@@ -48,9 +50,11 @@ void put_text(Bytes& out, const std::string& key, const std::string& value) {
 }
 
 // One row as the file has it: channels dropped, 16 bits in network order. May write three bytes more.
-template <class T> void pack_row(const T* rgba, std::uint32_t width, std::uint32_t channels, std::uint8_t* out) {
+template <class T>
+void pack_row(const T* rgba, std::uint32_t width, std::uint32_t channels, std::uint8_t* out) {
   if constexpr (sizeof(T) == 1) {
-    for (std::uint32_t x = 0; x < width; ++x) std::memcpy(out + std::size_t{x} * channels, rgba + std::size_t{x} * 4, 4);
+    for (std::uint32_t x = 0; x < width; ++x)
+      std::memcpy(out + std::size_t{x} * channels, rgba + std::size_t{x} * 4, 4);
   } else {
     for (std::uint32_t x = 0; x < width; ++x)
       for (std::uint32_t k = 0; k < channels; ++k) {
@@ -65,7 +69,8 @@ template <class T> struct Encoder {
   std::uint32_t width, height, channels;
   const T* rgba;
   std::size_t row_bytes{std::size_t{width} * channels * sizeof(T)};
-  std::uint32_t strip_rows{std::max<std::uint32_t>(1, static_cast<std::uint32_t>(strip_bytes / (row_bytes + 1)))};
+  std::uint32_t strip_rows{
+      std::max<std::uint32_t>(1, static_cast<std::uint32_t>(strip_bytes / (row_bytes + 1)))};
   std::uint32_t strips{(height - 1) / strip_rows + 1};
 
   struct Strip {
@@ -120,7 +125,8 @@ template <class T>
 Bytes encode(std::uint32_t width, std::uint32_t height, std::span<const T> rgba, const PngOptions& options) {
   if (width == 0 || height == 0 || width > 0x7fffffffu / 8 || height > 0x7fffffffu ||
       rgba.size() != std::size_t{width} * height * 4)
-    fail(Exit::Failed, "I008", {}, fmt::format("a picture of {} x {} pixels cannot be stored as PNG", width, height));
+    fail(Exit::Failed, "I008", {},
+         fmt::format("a picture of {} x {} pixels cannot be stored as PNG", width, height));
   bool opaque = !options.keep_alpha;
   constexpr T full = static_cast<T>(~T{0});
   if (opaque) {
@@ -129,15 +135,18 @@ Bytes encode(std::uint32_t width, std::uint32_t height, std::span<const T> rgba,
     opaque = all == full;
   }
   const Encoder<T> encoder{width, height, opaque ? 3u : 4u, rgba.data()};
-  unsigned threads = options.threads != 0 ? options.threads : std::min(4u, std::thread::hardware_concurrency());
+  unsigned threads =
+      options.threads != 0 ? options.threads : std::min(4u, std::thread::hardware_concurrency());
   threads = std::clamp(threads, 1u, encoder.strips);
   const auto strips = encoder.deflate_all(threads);
 
   Bytes out, data;
-  for (const int b : {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a}) out.push_back(static_cast<std::byte>(b));
+  for (const int b : {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a})
+    out.push_back(static_cast<std::byte>(b));
   put32(data, width);
   put32(data, height);
-  for (const std::size_t b : {sizeof(T) * 8, opaque ? std::size_t{2} : std::size_t{6}, std::size_t{0}, std::size_t{0}, std::size_t{0}})
+  for (const std::size_t b : {sizeof(T) * 8, opaque ? std::size_t{2} : std::size_t{6}, std::size_t{0},
+                              std::size_t{0}, std::size_t{0}})
     data.push_back(static_cast<std::byte>(b));
   put_chunk(out, "IHDR", data);
   put_chunk(out, "sRGB", std::array{std::byte{0}});
@@ -155,20 +164,20 @@ Bytes encode(std::uint32_t width, std::uint32_t height, std::span<const T> rgba,
 }
 } // namespace
 
-std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
-                                  const PngOptions& options) {
+std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height,
+                                  std::span<const std::uint8_t> rgba, const PngOptions& options) {
   return encode(width, height, rgba, options);
 }
-std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint16_t> rgba,
-                                  const PngOptions& options) {
+std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height,
+                                  std::span<const std::uint16_t> rgba, const PngOptions& options) {
   return encode(width, height, rgba, options);
 }
-void write_png(const std::string& path, std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
-               const PngOptions& options) {
+void write_png(const std::string& path, std::uint32_t width, std::uint32_t height,
+               std::span<const std::uint8_t> rgba, const PngOptions& options) {
   write_file(path, encode_png(width, height, rgba, options));
 }
-void write_png(const std::string& path, std::uint32_t width, std::uint32_t height, std::span<const std::uint16_t> rgba,
-               const PngOptions& options) {
+void write_png(const std::string& path, std::uint32_t width, std::uint32_t height,
+               std::span<const std::uint16_t> rgba, const PngOptions& options) {
   write_file(path, encode_png(width, height, rgba, options));
 }
 

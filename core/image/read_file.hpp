@@ -34,7 +34,8 @@ inline std::vector<std::byte> read_whole_file(const std::string& path) {
       break;
     }
   }
-  if (error != 0) fail(Exit::BadInput, "I004", {path}, fmt::format("'{}' cannot be read: {}", path, std::strerror(error)));
+  if (error != 0)
+    fail(Exit::BadInput, "I004", {path}, fmt::format("'{}' cannot be read: {}", path, std::strerror(error)));
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include "core/scene/realize.hpp"
 
 #include "core/data/source.hpp"
+#include "core/scene/assembly.hpp"
 #include "core/scene/codes.hpp"
 #include "core/scene/particle_values.hpp"
 
@@ -129,29 +130,51 @@ Bounds world_bounds(const ChunkSet& set, const glm::dmat4& world_from_data) {
   return out;
 }
 
-std::optional<Batch> make_batch(const DataDesc& desc, const std::shared_ptr<const data::Frame>& frame, const FrameOrigin& origin,
-                                Diagnostics& diagnostics) {
-  if (frame->count > most_rows) {
-    diagnostics.error(code::too_many_particles, origin.contents,
-                      fmt::format("the file has {} particles; a data set can have {}", frame->count, most_rows));
-    return std::nullopt;
+// The particles that `rows` marks (all, when it is empty), in their order.
+Drawable subset(const Drawable& all, const std::vector<bool>& rows) {
+  Drawable out;
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    if (!rows[all.rows[i]]) continue;
+    out.centers.push_back(all.centers[i]);
+    out.radii.push_back(all.radii[i]);
+    out.rows.push_back(all.rows[i]);
+    if (!all.colors.empty()) out.colors.push_back(all.colors[i]);
   }
-  std::vector<double> radii = particle_radii(*frame, desc.radius, origin, diagnostics);
-  ParticleColors colors = particle_colors(*frame, desc.color, desc.generated.has_value(), origin, diagnostics);
-  if (radii.size() != frame->count || diagnostics.has_errors()) return std::nullopt;
+  return out;
+}
+
+std::shared_ptr<const ChunkSet> chunks_of(const Drawable& d) {
+  return std::make_shared<ChunkSet>(build_spheres(d.centers, d.radii, d.rows, d.colors));
+}
+
+// One batch for each group of rows that has copies of its own; one where nothing is copied.
+std::vector<Batch> make_batches(const DataDesc& desc, const data::Frame& frame, const FrameOrigin& origin, Diagnostics& diagnostics) {
+  if (frame.count > most_rows) {
+    diagnostics.error(code::too_many_particles, origin.contents,
+                      fmt::format("the file has {} particles; a data set can have {}", frame.count, most_rows));
+    return {};
+  }
+  std::vector<double> radii = particle_radii(frame, desc.radius, origin, diagnostics);
+  ParticleColors colors = particle_colors(frame, desc.color, desc.generated.has_value(), origin, diagnostics);
+  const std::vector<Copies> groups = copies_of(frame, desc.assembly, origin.name, diagnostics);
+  if (radii.size() != frame.count || diagnostics.has_errors()) return {};
   Skipped skipped;
-  const Drawable drawable = choose(*frame, std::move(radii), std::move(colors.packed), skipped);
-  report(skipped, frame->count, origin, diagnostics);
-  Batch batch;
-  batch.name = origin.name;
-  batch.type = desc.type;
-  batch.chunks = std::make_shared<ChunkSet>(build_spheres(drawable.centers, drawable.radii, drawable.rows, drawable.colors));
-  batch.instances.push_back({desc.transform});
-  batch.material = desc.material;
-  batch.color = colors.constant;
-  batch.alpha = desc.alpha;
-  batch.row_count = frame->count;
-  return batch;
+  const Drawable drawable = choose(frame, std::move(radii), std::move(colors.packed), skipped);
+  report(skipped, frame.count, origin, diagnostics);
+  std::vector<Batch> batches;
+  for (const Copies& group : groups) {
+    Batch batch;
+    batch.name = origin.name;
+    batch.type = desc.type;
+    batch.chunks = chunks_of(group.rows.empty() ? drawable : subset(drawable, group.rows));
+    for (const glm::dmat4& transform : group.transforms) batch.instances.push_back({desc.transform * transform});
+    batch.material = desc.material;
+    batch.color = colors.constant;
+    batch.alpha = desc.alpha;
+    batch.row_count = frame.count;
+    batches.push_back(std::move(batch));
+  }
+  return batches;
 }
 
 } // namespace
@@ -175,11 +198,11 @@ Scene realize(const SceneDesc& desc, Size2d size, Diagnostics& diagnostics) {
       frame = entry->second;
     }
     if (!frame) continue;
-    std::optional<Batch> batch = make_batch(data, frame, origin, diagnostics);
-    if (!batch) continue;
-    batch->id_base = scene.particle_count();
-    scene.bounds.add(world_bounds(*batch->chunks, data.transform));
-    scene.batches.push_back(std::move(*batch));
+    for (Batch& batch : make_batches(data, *frame, origin, diagnostics)) {
+      batch.id_base = scene.particle_count();
+      for (const Instance& instance : batch.instances) scene.bounds.add(world_bounds(*batch.chunks, instance.world_from_data));
+      scene.batches.push_back(std::move(batch));
+    }
   }
   scene.camera = complete_camera(desc.camera, scene.bounds, size);
   if (const std::string problem = check(scene.camera); !problem.empty() && !diagnostics.has_errors())

@@ -147,11 +147,7 @@ DataDesc read_data(const Node& table, std::size_t index, const std::filesystem::
     diagnostics.error(code::transform_not_similar, reader.find("transform")->loc,
                       fmt::format("{} would turn spheres into ellipsoids, which mote does not draw yet", reader.name_of("transform")),
                       {"Spheres can be moved, turned, mirrored and scaled alike along all axes"});
-  const auto assembly = reader.text("assembly");
-  if (assembly && *assembly != "none")
-    diagnostics.error(code::no_assembly, reader.find("assembly")->loc,
-                      fmt::format("{} asks for assembly '{}', but the file has no assemblies", reader.name_of("assembly"), *assembly),
-                      {"assembly = \"none\" draws the particles of the file"});
+  if (const auto assembly = reader.text("assembly")) data.assembly = Located<std::string>{*assembly, reader.find("assembly")->loc};
   reader.finish();
   return data;
 }

@@ -73,12 +73,12 @@ glm::dvec3 read_ambient(TableReader& top, bool inherited_linear) {
   return color ? glm::dvec3(*color) * intensity : glm::dvec3(intensity);
 }
 
-Light default_light() {
-  Light light;
-  light.name = "headlight";
-  light.kind = LightKind::Headlight;
-  light.intensity = 0.8;
-  return light;
+// What a scene without [[light]] has, as a table of the file would say it, so that --set finds it by its name.
+void add_default_light(Node& root) {
+  if (root.find("light")) return;
+  root.set("light", config::array_node({config::table_node({{"name", config::text_node("headlight")},
+                                                            {"kind", config::text_node("headlight")},
+                                                            {"intensity", config::number_node(0.8)}})}));
 }
 
 // A camera that is wrong whatever the data is found here; one that is completed from the data is checked later.
@@ -110,7 +110,6 @@ SceneDesc read_tree(const Node& root, const std::string& name, const std::filesy
   }
   scene.ambient = read_ambient(top, linear);
   scene.lights = read_lights(top.tables("light"), linear, diagnostics);
-  if (!top.find("light")) scene.lights.push_back(default_light());
   const std::vector<const Node*> data = top.tables("data");
   for (std::size_t i = 0; i < data.size(); ++i) scene.data.push_back(read_data(*data[i], i, folder, linear, diagnostics));
   if (!top.find("data")) diagnostics.error(code::scene_missing_key, {name}, "the scene has no [[data]]: there is nothing to draw");
@@ -120,6 +119,7 @@ SceneDesc read_tree(const Node& root, const std::string& name, const std::filesy
 }
 
 void apply_overrides(Node& root, std::span<const std::string> overrides) {
+  add_default_light(root);
   for (const std::string& assignment : overrides) config::apply_override(root, assignment, code::set_path);
 }
 

@@ -63,6 +63,7 @@ struct DataDesc {
   double alpha{1.0};
   Material material{};
   glm::dmat4 transform{1.0};
+  std::optional<Located<std::string>> assembly{}; // a name, or "none"; absent: the file's first
   SourceLoc loc{};
 };
 

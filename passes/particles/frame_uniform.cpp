@@ -2,6 +2,7 @@
 #include "passes/particles/frame_uniform.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace mote::passes {
@@ -29,10 +30,12 @@ LightBlock light_block(const Light& light, const View& view) {
 FrameBlock frame_block(const Scene& scene, const View& view) {
   FrameBlock block;
   const double w = view.size.width, h = view.size.height;
-  block.viewport = glm::vec4(glm::dvec4(w, h, view.focal, 1.0 / view.focal));
+  const float inverse_high = std::bit_cast<float>(std::bit_cast<std::uint32_t>(static_cast<float>(1.0 / view.focal)) & 0xFFFFF000u);
+  block.viewport = glm::vec4(glm::dvec4(w, h, view.focal, inverse_high));
   block.sample_near_far = glm::vec4(glm::dvec4(view.sample_offset.x - 0.5 * w, view.sample_offset.y - 0.5 * h, view.near_cut,
                                                view.far_cut > 0 ? std::min(view.far_cut, 3e38) : 3e38));
   block.depth_near.x = static_cast<float>(view.depth_near);
+  block.depth_near.y = static_cast<float>(1.0 / view.focal - double(inverse_high));
   const glm::dmat3 world_from_view = glm::transpose(view.rotation);
   for (int i = 0; i < 3; ++i) block.world_from_view[i] = glm::vec4(glm::vec3(world_from_view[i]), 0.0f);
   block.ambient = glm::vec4(glm::vec3(scene.ambient), 0.0f);

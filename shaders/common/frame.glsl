@@ -15,9 +15,9 @@ struct Light {
 };
 
 layout(std140, set = 0, binding = 0) uniform FrameBlock {
-  vec4 viewport;          // width, height, focal (pixels; orthographic: pixels per world unit), 1 / focal
+  vec4 viewport;          // width, height, focal (pixels; orthographic: pixels per world unit), 1 / focal to 12 bits
   vec4 sample_near_far;   // xy: sample offset - viewport / 2; z: near cut; w: far cut (huge: none)
-  vec4 depth_near;        // x: n of the depth encoding n / z
+  vec4 depth_near;        // x: n of the depth encoding n / z; y: the rest of 1 / focal
   vec4 world_from_view0;  // columns of the rotation
   vec4 world_from_view1;
   vec4 world_from_view2;
@@ -38,9 +38,11 @@ struct Ray {
   vec3 direction; // z = 1: the ray parameter is the depth along the view axis
 };
 
-// The ray through a sample of the pixel whose integer position is floor(fragment.xy).
+// The ray through a sample of the pixel whose integer position is floor(fragment.xy). Half-integers have few bits, so
+// the first product is exact and the direction is rounded once.
 Ray pixel_ray(vec2 fragment) {
-  vec2 p = (floor(fragment) + frame.sample_near_far.xy) * frame.viewport.w;
+  vec2 pixel = floor(fragment) + frame.sample_near_far.xy;
+  precise vec2 p = pixel * frame.viewport.w + pixel * frame.depth_near.y;
   return orthographic ? Ray(vec3(p, 0.0), vec3(0.0, 0.0, 1.0)) : Ray(vec3(0.0), vec3(p, 1.0));
 }
 

@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"set_key", "render good.csv --set camera.fov=20", 2, "S003", "camera has no key 'fov'"},
         BadInput{"set_nothing", "render good.csv --set displya.exposure=1", 2, "A011", "Did you mean 'display'?"},
         BadInput{"set_pass_parameter", "render good.csv --set display.exposur=1", 2, "G021", "exposur"},
-        BadInput{"set_light", "render good.csv --set light.sun.intensity=1", 2, "S017", ""},
+        BadInput{"set_light", "render good.csv --set light.sun.intensity=1", 2, "S017", "names: headlight"},
         BadInput{"generated_count", "render spheres:lots:fit", 2, "S019", "'lots' is not a number"},
         BadInput{"generated_camera", "render spheres:1e3:fitt", 2, "S019", "Did you mean 'fit'?"},
         BadInput{"generated_sticks", "render sticks:1e4:fit", 2, "S020", "'cylinder', which is not there yet"},
@@ -85,9 +85,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"bench_frames", "bench good.csv --frames 0", 2, "A001", "0"},
         BadInput{"compare_one", "compare good.png", 2, "A001", "compare takes two pictures"},
         BadInput{"compare_limits", "compare a.png b.png --limits idd=0", 2, "K001", "idd"},
-        BadInput{"compare_ending", "compare a.png b.jpg", 2, "", ""},
+        BadInput{"compare_ending", "compare a.png b.jpg", 2, "A003", "'b.jpg' is no picture"},
         BadInput{"graph_options", "graph --dot --plan", 2, "A001", "--plan"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& row) { return std::string(row.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(
     Files, BadInputTable,
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"view_transform", "render good.csv --view Filmic -o out.png", 3, "C004", "Un-tone-mapped"},
         BadInput{"compare_missing", "compare gone.png gone.png", 3, "I004", "gone.png"},
         BadInput{"compare_text", "compare good.csv good.csv", 2, "A003", "Endings"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& row) { return std::string(row.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(Device, BadInputTable,
                          ::testing::Values(BadInput{"no_such_device", "render good.csv --device nosuch -o out.png", 4, "V-ADPT-002", "nosuch"},
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Device, BadInputTable,
                                            BadInput{"no_folder", "render good.csv -o gone/out.png", 1, "I001", "gone/out.png"},
                                            BadInput{"disk_full", "render good.csv -o /dev/full", 2, "A003", ""},
                                            BadInput{"disk_full_aov", "render good.csv --aov depth=- >/dev/full", 1, "I002", ""}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& row) { return std::string(row.param.name); });
 
 class Environment : public CommandTest {};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "core/color/color_config.hpp"
 #include "core/color/codes.hpp"
+#include "core/color/color_config.hpp"
 #include "core/color/default_config.hpp"
 #include "core/color/srgb.hpp"
 
@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 class ColorConfigTest : public testing::Test {
 protected:
   void SetUp() override {
-    for (const char* name : {"OCIO", "OCIO_ACTIVE_DISPLAYS", "OCIO_ACTIVE_VIEWS", "OCIO_INACTIVE_COLORSPACES"})
+    for (const char* name :
+         {"OCIO", "OCIO_ACTIVE_DISPLAYS", "OCIO_ACTIVE_VIEWS", "OCIO_INACTIVE_COLORSPACES"})
       unsetenv(name);
     folder = fs::temp_directory_path() / ("mote-color-" + std::to_string(getpid()));
     fs::create_directories(folder);
@@ -62,7 +63,8 @@ TEST_F(ColorConfigTest, ShipsOneThatNeedsNoFile) {
   EXPECT_THAT(config.views("sRGB"), ElementsAre("Un-tone-mapped", "ACES SDR", "Raw"));
   EXPECT_EQ(config.default_display(), "sRGB");
   EXPECT_EQ(config.default_view("sRGB"), "Un-tone-mapped");
-  EXPECT_THAT(config.color_spaces(), ElementsAre("ACES2065-1", "Linear Rec.709", "sRGB", "ACEScg", "ACEScct", "Raw"));
+  EXPECT_THAT(config.color_spaces(),
+              ElementsAre("ACES2065-1", "Linear Rec.709", "sRGB", "ACEScg", "ACEScct", "Raw"));
   EXPECT_THAT(config.messages(), testing::IsEmpty());
   config.check_view("sRGB", "Raw");
   config.check_color_space("scene_linear"); // a role is a name, too
@@ -89,7 +91,8 @@ TEST_F(ColorConfigTest, NamesAFileThatCannotBeRead) {
 
 TEST_F(ColorConfigTest, PassesOnWhatOpenColorIOSays) {
   testing::internal::CaptureStderr();
-  const std::string newer = write("newer.ocio", replaced(std::string(default_color_config()), "version: 2.1", "version: 2.9"));
+  const std::string newer =
+      write("newer.ocio", replaced(std::string(default_color_config()), "version: 2.1", "version: 2.9"));
   const Diagnostic d = failure_of([&] { ColorConfig::load(newer); });
   EXPECT_EQ(d.code, "C002");
   EXPECT_EQ(d.loc.file, newer);
@@ -97,11 +100,13 @@ TEST_F(ColorConfigTest, PassesOnWhatOpenColorIOSays) {
   EXPECT_EQ(failure_of([&] { ColorConfig::load(write("x.ocio", "not: [a, config")); }).code, "C002");
   EXPECT_EQ(failure_of([&] { ColorConfig::from_text("", "empty"); }).code, "C002");
   const ColorConfig odd = ColorConfig::from_text(
-      replaced(std::string(default_color_config()), "    name: ACEScg\n", "    name: ACEScg\n    foo: 3\n"), "odd");
+      replaced(std::string(default_color_config()), "    name: ACEScg\n", "    name: ACEScg\n    foo: 3\n"),
+      "odd");
   ASSERT_EQ(odd.messages().size(), 1u);
   EXPECT_THAT(odd.messages()[0], HasSubstr("unknown key 'foo'"));
   const ColorConfig flawed = ColorConfig::from_text(
-      replaced(std::string(default_color_config()), "color_picking: sRGB", "color_picking: absent"), "flawed");
+      replaced(std::string(default_color_config()), "color_picking: sRGB", "color_picking: absent"),
+      "flawed");
   ASSERT_EQ(flawed.messages().size(), 1u);
   EXPECT_THAT(flawed.messages()[0], HasSubstr("absent"));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -111,12 +116,14 @@ TEST_F(ColorConfigTest, NeedsAWorkingSpace) {
   std::string text(default_color_config());
   text = replaced(text, "    name: Linear Rec.709\n", "    name: Mine\n");
   text = replaced(text, "rendering: Linear Rec.709", "rendering: ACEScg");
-  const ColorConfig by_role = ColorConfig::from_text(replaced(text, "scene_linear: Linear Rec.709", "scene_linear: ACEScg"), "t");
+  const ColorConfig by_role =
+      ColorConfig::from_text(replaced(text, "scene_linear: Linear Rec.709", "scene_linear: ACEScg"), "t");
   EXPECT_EQ(by_role.working_space(), "ACEScg");
   const auto red = by_role.to_working("sRGB", {1.0, 0.0, 0.0}); // ACEScg of Rec.709 red, by its matrix
   EXPECT_NEAR(red[0], 0.6131, 1e-3);
   EXPECT_NEAR(red[1], 0.0702, 1e-3);
-  const Diagnostic d = failure_of([&] { ColorConfig::from_text(replaced(text, "  scene_linear: Linear Rec.709\n", ""), "t"); });
+  const Diagnostic d = failure_of(
+      [&] { ColorConfig::from_text(replaced(text, "  scene_linear: Linear Rec.709\n", ""), "t"); });
   EXPECT_EQ(d.code, "C006");
   EXPECT_THAT(d.text, HasSubstr("scene_linear"));
 }
@@ -156,6 +163,7 @@ TEST_F(ColorConfigTest, BringsColorsIntoTheWorkingSpace) {
 }
 
 TEST(ColorCodes, AreInOrder) {
-  for (std::size_t i = 1; i < color_codes.size(); ++i) EXPECT_LT(color_codes[i - 1].first, color_codes[i].first);
+  for (std::size_t i = 1; i < color_codes.size(); ++i)
+    EXPECT_LT(color_codes[i - 1].first, color_codes[i].first);
 }
 } // namespace

@@ -19,7 +19,9 @@ using testing::Not;
 template <class F> Diagnostic failure_of(F&& f) {
   try {
     f();
-  } catch (const Failure& failure) { return failure.diagnostic(); }
+  } catch (const Failure& failure) {
+    return failure.diagnostic();
+  }
   ADD_FAILURE() << "no failure";
   return {};
 }
@@ -47,7 +49,8 @@ TEST_F(DisplayTransformTest, DefaultIsThePlainSrgbCurve) {
   double largest = 0;
   for (std::size_t i = 0; i < grid.size(); ++i)
     if (i % 4 != 3)
-      largest = std::max(largest, std::fabs(std::clamp(srgb_encode(grid[i]), 0.0, 1.0) - static_cast<double>(out[i])));
+      largest = std::max(largest,
+                         std::fabs(std::clamp(srgb_encode(grid[i]), 0.0, 1.0) - static_cast<double>(out[i])));
   EXPECT_LE(largest, 2e-5);
 }
 
@@ -72,7 +75,8 @@ TEST_F(DisplayTransformTest, GuardsAndCuts) {
     const DisplayTransform transform = make(view);
     EXPECT_EQ(of(transform, {nan, 0.5f, 0.25f, 1.0f}), of(transform, {0.0f, 0.5f, 0.25f, 1.0f})) << view;
     EXPECT_EQ(of(transform, {inf, 0.5f, 0.25f, 1.0f}), of(transform, {65504.0f, 0.5f, 0.25f, 1.0f})) << view;
-    EXPECT_EQ(of(transform, {-inf, 0.5f, 0.25f, 1.0f}), of(transform, {-65504.0f, 0.5f, 0.25f, 1.0f})) << view;
+    EXPECT_EQ(of(transform, {-inf, 0.5f, 0.25f, 1.0f}), of(transform, {-65504.0f, 0.5f, 0.25f, 1.0f}))
+        << view;
     EXPECT_EQ(of(transform, {0, 0, 0, nan})[3], 0.0f);
     EXPECT_EQ(of(transform, {0, 0, 0, 1.5f})[3], 1.0f);
     std::vector<float> out = bake_grid();
@@ -86,7 +90,8 @@ TEST_F(DisplayTransformTest, ExposureMultiplies) {
   const DisplayTransform transform = make("ACES SDR", 1.5);
   EXPECT_DOUBLE_EQ(transform.gain(), std::exp2(1.5));
   const float g = static_cast<float>(std::exp2(1.5));
-  EXPECT_EQ(of(transform, {0.1f, 0.2f, 0.3f, 1.0f}), of(make("ACES SDR"), {0.1f * g, 0.2f * g, 0.3f * g, 1.0f}));
+  EXPECT_EQ(of(transform, {0.1f, 0.2f, 0.3f, 1.0f}),
+            of(make("ACES SDR"), {0.1f * g, 0.2f * g, 0.3f * g, 1.0f}));
   for (const double bad : {std::nan(""), HUGE_VAL, 1000.0}) {
     const Diagnostic d = failure_of([&] { make("Raw", bad); });
     EXPECT_EQ(d.code, "C009");
@@ -107,7 +112,8 @@ TEST_F(DisplayTransformTest, BakesTheAcesViewWithinAStep) {
   baked.apply(a);
   baked.apply_baked(b);
   double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::fabs(double{a[i]} - double{b[i]}));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max(largest, std::fabs(double{a[i]} - double{b[i]}));
   EXPECT_LE(largest * 255, 1.0);
   EXPECT_FALSE(make("ACES SDR", 0, true).baked());
   EXPECT_EQ(make("ACES SDR", 0, true).baked_error(), 0.0);
@@ -134,7 +140,9 @@ TEST_F(DisplayTransformTest, TakesTablesFromAConfig) {
   const auto folder = std::filesystem::temp_directory_path() / ("mote-luts-" + std::to_string(getpid()));
   const ColorConfig config = ColorConfig::load(test::write_lut_config(folder));
   EXPECT_THAT(config.views("Test"), testing::ElementsAreArray(test::lut_views()));
-  auto glsl = [&](const std::string& view) { return make_display_transform(config, {.view = view}).glsl({.first_binding = 7}); };
+  auto glsl = [&](const std::string& view) {
+    return make_display_transform(config, {.view = view}).glsl({.first_binding = 7});
+  };
   const DisplayGlsl curve = glsl("Curve");
   ASSERT_EQ(curve.luts.size(), 1u);
   EXPECT_FALSE(curve.luts[0].volume);
@@ -175,7 +183,8 @@ TEST_F(DisplayTransformTest, NamesWhatDoesNotExist) {
   // a config may name a LUT file that is not there: found only when the view is built
   std::string text(default_color_config());
   const std::string view = "UTILITY - ACES-AP0_to_CIE-XYZ-D65_BFD}";
-  text.replace(text.find("!<BuiltinTransform> {style: " + view), 28 + view.size(), "!<FileTransform> {src: absent.cube}");
+  text.replace(text.find("!<BuiltinTransform> {style: " + view), 28 + view.size(),
+               "!<FileTransform> {src: absent.cube}");
   const Diagnostic d = failure_of([&] { make_display_transform(ColorConfig::from_text(text, "t")); });
   EXPECT_EQ(d.code, "C007");
   EXPECT_THAT(d.text, HasSubstr("absent.cube"));
@@ -188,7 +197,8 @@ TEST(CurveTable, FollowsASmoothFunctionOfEitherSign) {
   EXPECT_TRUE(table.usable());
   EXPECT_EQ(table.rows(), 1u);
   for (double x = 1e-4; x < 1e5; x *= 1.003)
-    for (const double s : {x, -x}) EXPECT_NEAR(table(1, static_cast<float>(s)) / (std::cbrt(s) + s), 1.0, 4e-5) << s;
+    for (const double s : {x, -x})
+      EXPECT_NEAR(table(1, static_cast<float>(s)) / (std::cbrt(s) + s), 1.0, 4e-5) << s;
   EXPECT_EQ(table(0, 0.0f), 0.0f);
   EXPECT_EQ(table(0, -0.0f), 0.0f);
   EXPECT_TRUE(std::isfinite(table(0, 3e38f)));
@@ -200,6 +210,8 @@ TEST(CurveTable, KeepsChannelsApartAndRefusesInfinity) {
   });
   EXPECT_EQ(three.rows(), 3u);
   EXPECT_NEAR(three(2, 0.7f), 2.1f, 1e-6f);
-  EXPECT_FALSE(CurveTable([](std::span<float> rgb) { for (float& v : rgb) v = std::log(v); }).usable());
+  EXPECT_FALSE(CurveTable([](std::span<float> rgb) {
+                 for (float& v : rgb) v = std::log(v);
+               }).usable());
 }
 } // namespace

@@ -15,8 +15,9 @@
 namespace mote::test {
 
 inline const std::vector<std::string>& lut_views() {
-  static const std::vector<std::string> views{"Curve", "Three curves", "Long curve", "Cube", "Tetrahedral",
-                                              "Nearest", "Chain", "Log", "Splines", "Steep"};
+  static const std::vector<std::string> views{"Curve",       "Three curves", "Long curve", "Cube",
+                                              "Tetrahedral", "Nearest",      "Chain",      "Log",
+                                              "Splines",     "Steep"};
   return views;
 }
 
@@ -39,7 +40,8 @@ inline void write_cube(const std::filesystem::path& file, int size) { // red fas
   std::ofstream out(file);
   out << fmt::format("LUT_3D_SIZE {}\nDOMAIN_MIN 0 0 0\nDOMAIN_MAX 1 1 1\n", size);
   for (int i = 0; i < size * size * size; ++i) {
-    const auto v = twisted(i % size / (size - 1.0), i / size % size / (size - 1.0), i / size / size / (size - 1.0));
+    const auto v =
+        twisted(i % size / (size - 1.0), i / size % size / (size - 1.0), i / size / size / (size - 1.0));
     out << fmt::format("{:.9f} {:.9f} {:.9f}\n", v[0], v[1], v[2]);
   }
 }
@@ -73,7 +75,8 @@ file_rules:
 displays:
   Test:
 )";
-  for (const std::string& view : lut_views()) out << fmt::format("    - !<View> {{name: {0}, colorspace: {0}}}\n", view);
+  for (const std::string& view : lut_views())
+    out << fmt::format("    - !<View> {{name: {0}, colorspace: {0}}}\n", view);
   out << R"(colorspaces:
   - !<ColorSpace> {name: Linear Rec.709, isdata: false}
 )";
@@ -85,9 +88,11 @@ displays:
       {"!<FileTransform> {src: cube.cube, interpolation: linear}"},
       {shaper, "!<FileTransform> {src: cube.spi3d, interpolation: tetrahedral}"},
       {"!<FileTransform> {src: cube.spi3d, interpolation: nearest}"},
-      {"!<FileTransform> {src: curve.spi1d, interpolation: linear}", "!<FileTransform> {src: cube.cube, interpolation: tetrahedral}",
+      {"!<FileTransform> {src: curve.spi1d, interpolation: linear}",
+       "!<FileTransform> {src: cube.cube, interpolation: tetrahedral}",
        "!<MatrixTransform> {matrix: [0.9, 0.1, 0, 0, 0.05, 0.9, 0.05, 0, 0, 0.1, 0.9, 0, 0, 0, 0, 1]}",
-       "!<FileTransform> {src: three.spi1d, interpolation: linear}", "!<FileTransform> {src: cube.spi3d, interpolation: linear}"},
+       "!<FileTransform> {src: three.spi1d, interpolation: linear}",
+       "!<FileTransform> {src: cube.spi3d, interpolation: linear}"},
       {"!<LogCameraTransform> {base: 2, log_side_slope: 0.06, log_side_offset: 0.55, lin_side_break: 0.008}",
        "!<ExponentTransform> {value: [1.1, 1.2, 1.3, 1]}", "!<ExponentTransform> {value: 0.9}",
        "!<CDLTransform> {slope: [1.1, 1, 0.9], power: [1.05, 1, 0.98], sat: 0.8}"},
@@ -95,9 +100,12 @@ displays:
        "!<GradingRGBCurveTransform> {style: linear, red: {control_points: [-7, -6, 0, 0.3, 6, 7]}, "
        "green: {control_points: [-7, -7, 0, 0, 6, 6]}, blue: {control_points: [-7, -5, 0, -0.2, 6, 4]}}",
        "!<ExponentTransform> {value: [0.45, 0.4, 0.5, 1], style: mirror}"},
-      {"!<GradingRGBCurveTransform> {style: log, master: {control_points: [-1, 0, 1.0615, 0, 1.062, 1, 3, 1]}}"}};
+      {"!<GradingRGBCurveTransform> {style: log, master: {control_points: [-1, 0, 1.0615, 0, 1.062, 1, 3, "
+       "1]}}"}};
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    out << fmt::format("  - !<ColorSpace>\n    name: {}\n    from_scene_reference: !<GroupTransform>\n      children:\n", lut_views()[i]);
+    out << fmt::format(
+        "  - !<ColorSpace>\n    name: {}\n    from_scene_reference: !<GroupTransform>\n      children:\n",
+        lut_views()[i]);
     for (const std::string& step : steps[i]) out << "        - " << step << '\n';
   }
   return (folder / "config.ocio").string();

@@ -66,8 +66,9 @@ protected:
       different += std::lround(got[i] * 255.0f) != std::lround(expected[i] * 255.0f);
       if (d > largest) largest = d, where = i / 4 * 4;
     }
-    fmt::print("{}: largest difference {:.2e} ({:.4f} of 1/255) at ({}, {}, {}); {} of {} eight-bit values differ\n", what,
-               largest, largest * 255, in[where], in[where + 1], in[where + 2], different, in.size());
+    fmt::print(
+        "{}: largest difference {:.2e} ({:.4f} of 1/255) at ({}, {}, {}); {} of {} eight-bit values differ\n",
+        what, largest, largest * 255, in[where], in[where + 1], in[where + 2], different, in.size());
     return largest;
   }
 

@@ -78,12 +78,16 @@ TEST(LammpsDump, PositionFormsInOrderOfPreference) {
 }
 
 TEST(LammpsDump, TriclinicBoundsAreThoseOfTheCorners) {
-  const Frame frame = read_text(
-      dump("xs ys zs", "1 1 1\n0 0 0\n", "2", "BOX BOUNDS xy xz yz pp pp pp\n-2 14 -3\n0 12 1\n0 8 2\n"));
-  // low x = -2 - min(0, -3, 1, -2) = 1, high x = 14 - max(0, -3, 1, -2) = 13; high y = 12 - 2
-  EXPECT_EQ(frame.box->origin, glm::dvec3(1, 0, 0));
-  EXPECT_EQ(frame.box->edges, glm::dmat3({12, 0, 0}, {-3, 10, 0}, {1, 2, 8}));
-  EXPECT_THAT(reals(frame, "position"), ElementsAre(1 + 12 - 3 + 1, 12, 8, 1, 0, 0));
+  const Frame left = read_text(
+      dump("xs ys zs", "1 1 1\n0 0 0\n", "2", "BOX BOUNDS xy xz yz pp pp pp\n-2 14 -3\n0 12 -1\n0 8 2\n"));
+  // low x = -2 - min(0, -3, -1, -4) = 2, high x = 14 - max(0, ...) = 14; high y = 12 - 2
+  EXPECT_EQ(left.box->origin, glm::dvec3(2, 0, 0));
+  EXPECT_EQ(left.box->edges, glm::dmat3({12, 0, 0}, {-3, 10, 0}, {-1, 2, 8}));
+  EXPECT_THAT(reals(left, "position"), ElementsAre(2 + 12 - 3 - 1, 12, 8, 2, 0, 0));
+  const Frame right = read_text(
+      dump("xs ys zs", "1 1 1\n0 0 0\n", "2", "BOX BOUNDS xy xz yz pp pp pp\n-2 14 3\n0 12 1\n0 8 -2\n"));
+  EXPECT_EQ(right.box->origin, glm::dvec3(-2, 2, 0)); // high x = 14 - (3 + 1), low y = 0 + 2
+  EXPECT_EQ(right.box->edges, glm::dmat3({12, 0, 0}, {3, 10, 0}, {1, -2, 8}));
 }
 
 TEST(LammpsDump, TriclinicPackedFile) {

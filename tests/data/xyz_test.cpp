@@ -53,6 +53,16 @@ TEST(Xyz, ExtendedGivesBoxTimeAndWords) {
               ElementsAre(Pair("energy", "-3.25"), Pair("note", "two words"), Pair("flag", "true")));
 }
 
+TEST(Xyz, BracketsQuotesAndBackslashes) {
+  const Frame frame = read_text(
+      "1\nLattice = [[4,0,0],[1,5,0],[0,2,6]] virial=[[1, 2], [3, 4]] note=\"a \\\"b\\\"\" pbc=[T,F,T]\n"
+      "O 1 2 3\n");
+  EXPECT_EQ(frame.box->edges, glm::dmat3({4, 0, 0}, {1, 5, 0}, {0, 2, 6}));
+  EXPECT_FALSE(frame.box->periodic.y);
+  using Pair = std::pair<std::string, std::string>;
+  EXPECT_THAT(frame.properties, ElementsAre(Pair("virial", "[1, 2], [3, 4]"), Pair("note", "a \"b\"")));
+}
+
 TEST(Xyz, PlainIgnoresTheRestOfALine) {
   const Frame frame = read_text("2\nwhat energy=3 is\nO 1 2 3 rest of it\nHw 4 5 6\n");
   EXPECT_FALSE(frame.find("element")); // Hw is no element: the labels are types

@@ -29,7 +29,8 @@ TEST(Lz4, LongLengthsUseFollowingBytes) {
 TEST(Lz4, DamageIsSeen) {
   const std::string good = "\x1c"s + "a" + "\x01\x00"s + "\x20" + "bc";
   std::string out(19, '?');
-  for (std::size_t size = 0; size < good.size(); ++size) EXPECT_FALSE(unpack_lz4(good.substr(0, size), out)) << size;
+  for (std::size_t size = 0; size < good.size(); ++size)
+    EXPECT_FALSE(unpack_lz4(good.substr(0, size), out)) << size;
   std::string far = good;
   far[2] = '\x02'; // before the begin
   EXPECT_FALSE(unpack_lz4(far, out));

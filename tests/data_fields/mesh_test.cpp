@@ -11,7 +11,8 @@ namespace {
 using ::testing::ElementsAre;
 
 TEST(Obj, NormalsByFaces) {
-  const Frame frame = read_memory("a.obj", "# CC0-1.0\no thing\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nvn 0 0 1\nvn 1 0 0\nvt 0 0\nf 1//1 2/1/2 -2//-2\n");
+  const Frame frame = read_memory("a.obj", "# CC0-1.0\no thing\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nvn 0 0 "
+                                           "1\nvn 1 0 0\nvt 0 0\nf 1//1 2/1/2 -2//-2\n");
   EXPECT_EQ(frame.count, 4u);
   EXPECT_THAT(numbers_of(frame, "normal"), ElementsAre(0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0));
 }
@@ -30,13 +31,14 @@ TEST(Obj, BadFilesAreRefused) {
   expect_refused("a.obj", "v 0 0 0\nv 1 2\n", "D010", "a.obj:2:1");
   expect_refused("a.obj", "v 0 0 0\nv 1 2 zero\n", "D012", "a.obj:2:7");
   expect_refused("a.obj", "v 0 0 0\nvertex 1 2 3\n", "D008", "'vertex'");
-  expect_refused("a.obj", "v 0 0 0\nvn 0 0 1\nf 1//1 2//1 1//1\n", "D066", "vertex '2//1', but there are 1");
+  expect_refused("a.obj", "v 0 0 0\nvn 0 0 1\nf 1//1 2//1 1//1\n", "D066", "vertex '2', but there are 1");
   expect_refused("a.obj", "v 0 0 0\nvn 0 0 1\nf 1//1 1//0 1//1\n", "D066", "normal '0'");
   expect_refused("a.obj", "o nothing\ng here\n", "D013", "no vertices");
 }
 
 TEST(Off, KindsOfVertices) {
-  EXPECT_THAT(numbers_of(read_memory("a.off", "OFF # CC0-1.0\n# mesh\n1 0 0\n1 2 3\n"), "position"), ElementsAre(1, 2, 3));
+  EXPECT_THAT(numbers_of(read_memory("a.off", "OFF # CC0-1.0\n# mesh\n1 0 0\n1 2 3\n"), "position"),
+              ElementsAre(1, 2, 3));
   EXPECT_EQ(read_memory("a.off", "OFF 1 0 0\n1 2 3\n").count, 1u);
   const Frame frame = read_memory("a.off", "CNOFF\n1 1 0\n1 2 3 0 0 1 255 128 0\n3 0 0 0\n");
   EXPECT_THAT(numbers_of(frame, "normal"), ElementsAre(0, 0, 1));
@@ -44,7 +46,7 @@ TEST(Off, KindsOfVertices) {
 }
 
 TEST(Off, BadFilesAreRefused) {
-  expect_refused("a.off", "OFF\n2 0 0\n1 2 3\n", "D006", "2 of 2");
+  expect_refused("a.off", "OFF\n2 0 0\n1.00 2.00 3.00\n", "D006", "vertex 2 of 2 is missing");
   expect_refused("a.off", "OFF\n99999999999 0 0\n1 2 3\n", "D006", "99999999999 vertices");
   expect_refused("a.off", "OFF\n1 1 0\n1 2 3\n3 0 0 1\n", "D066", "vertex '1', but there are 1");
   expect_refused("a.off", "OFF\n1 1 0\n1 2 3\n3 0 0\n", "D010", "2 corners of 3");
@@ -54,8 +56,10 @@ TEST(Off, BadFilesAreRefused) {
   expect_refused("a.off", "OFF\n1 x 0\n1 2 3\n", "D008", "faces is not a count: 'x'");
 }
 
-const std::string stl = "solid CC0-1.0\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
-                        "facet normal 1 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid CC0-1.0\n";
+const std::string stl = "solid CC0-1.0\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 "
+                        "1 0\nendloop\nendfacet\n"
+                        "facet normal 1 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 0 0 "
+                        "1\nendloop\nendfacet\nendsolid CC0-1.0\n";
 
 std::string binary_stl(std::uint32_t facets) {
   std::string out = "solid, but binary" + std::string(63, ' ');
@@ -63,7 +67,8 @@ std::string binary_stl(std::uint32_t facets) {
     for (int i = 0; i < 4; ++i) out += static_cast<char>(bits >> (8 * i));
   };
   put(facets);
-  for (const float v : {0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) put(std::bit_cast<std::uint32_t>(v));
+  for (const float v : {0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f})
+    put(std::bit_cast<std::uint32_t>(v));
   return out + std::string(2, '\0');
 }
 
@@ -73,23 +78,28 @@ TEST(Stl, CornersAreJoinedAndNormalsAveraged) {
   const std::vector<double> n = numbers_of(frame, "normal");
   EXPECT_NEAR(n[0], std::sqrt(0.5), 1e-15);
   EXPECT_EQ(n[5], 1.0);
-  for (std::size_t size = 1; size + 20 < stl.size(); ++size) EXPECT_NE(outcome_of("a.stl", stl.substr(0, size)).code, "") << size;
+  for (std::size_t size = 1; size + 20 < stl.size(); ++size)
+    EXPECT_NE(outcome_of("a.stl", stl.substr(0, size)).code, "") << size;
 }
 
 TEST(Stl, Binary) {
   const std::string whole = binary_stl(1);
   EXPECT_THAT(numbers_of(read_memory("a.stl", whole), "position"), ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0));
-  for (std::size_t size = 1; size < whole.size(); ++size) EXPECT_NE(outcome_of("a.stl", whole.substr(0, size)).code, "") << size;
+  for (std::size_t size = 1; size < whole.size(); ++size)
+    EXPECT_NE(outcome_of("a.stl", whole.substr(0, size)).code, "") << size;
   expect_refused("a.stl", binary_stl(4000000000u), "D006", "facets");
 }
 
 TEST(Stl, BadFilesAreRefused) {
-  expect_refused("a.stl", changed(stl, "outer loop", "outer lop"), "D008", "'loop' is missing; here stands 'lop'");
+  expect_refused("a.stl", changed(stl, "outer loop", "outer lop"), "D008",
+                 "'loop' is missing; here stands 'lop'");
   expect_refused("a.stl", changed(stl, "vertex 1 0 0", "vertex 1 0 nought"), "D012", "a.stl:5:12");
 }
 
-const std::string ply = "ply\nformat ascii 1.0\ncomment CC0-1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\n"
-                        "property float nz\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n0 0 0 0 0 1 255 0 9\n1 2 3 1 0 0 0 1 2\n";
+const std::string ply = "ply\nformat ascii 1.0\ncomment CC0-1.0\nelement vertex 2\nproperty float "
+                        "x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\n"
+                        "property float nz\nproperty uchar red\nproperty uchar green\nproperty uchar "
+                        "blue\nend_header\n0 0 0 0 0 1 255 0 9\n1 2 3 1 0 0 0 1 2\n";
 
 TEST(Ply, NormalsAndColors) {
   const Frame frame = read_memory("a.ply", ply);
@@ -99,7 +109,7 @@ TEST(Ply, NormalsAndColors) {
 }
 
 TEST(Ply, BadFilesAreRefused) {
-  expect_refused("a.ply", changed(ply, "vertex 2", "vertex 3"), "D006", "missing");
+  expect_refused("a.ply", changed(ply, "vertex 2", "vertex 3"), "D006", "3 vertices are announced");
   expect_refused("a.ply", changed(ply, "vertex 2", "vertex 99999999999"), "D006", "99999999999 vertices");
   expect_refused("a.ply", changed(ply, "float x", "floot x"), "D065", "Did you mean 'float'");
   expect_refused("a.ply", changed(ply, "float x", "float y"), "D062", "'y' is there twice");

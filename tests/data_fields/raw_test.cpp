@@ -12,9 +12,13 @@ using ::testing::HasSubstr;
 
 class Raw : public ::testing::Test {
 protected:
-  Raw() : folder_(std::filesystem::temp_directory_path() / ("mote-raw-test-" + std::to_string(::getpid()))) { std::filesystem::create_directories(folder_); }
+  Raw() : folder_(std::filesystem::temp_directory_path() / ("mote-raw-test-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
   ~Raw() override { std::filesystem::remove_all(folder_); }
-  void save(const std::string& name, std::string_view content) const { std::ofstream(folder_ / name, std::ios::binary) << content; }
+  void save(const std::string& name, std::string_view content) const {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+  }
   Frame read(const std::string& text, Diagnostics* warnings = nullptr) const {
     save("a.moteraw", text);
     const auto source = open(folder_ / "a.moteraw");
@@ -56,7 +60,8 @@ TEST_F(Raw, CountHeaderAndTrailingBytes) {
 
 TEST_F(Raw, TextWithComments) {
   save("p.txt", "heading\n# comment\n1 0.5 1.5 2.5 extra\n\n2 3 4 5\n");
-  const Frame frame = read("mote_raw = 1\n[[file]]\npath = 'p.txt'\nkind = 'text'\nheader = 1\nlayout = ['id integer', 'position real 3 nm']\n");
+  const Frame frame = read("mote_raw = 1\n[[file]]\npath = 'p.txt'\nkind = 'text'\nheader = 1\nlayout = ['id "
+                           "integer', 'position real 3 nm']\n");
   EXPECT_THAT(numbers_of(frame, "position"), ElementsAre(0.5, 1.5, 2.5, 3, 4, 5));
   EXPECT_EQ(frame.find("position")->unit, "nm");
 }
@@ -64,7 +69,8 @@ TEST_F(Raw, TextWithComments) {
 TEST_F(Raw, BadDescriptionsAreRefused) {
   save("p.bin", bytes_of_two);
   refused("mote_raw = 1\n[[file]\n", "D067", "a.moteraw:2");
-  refused(changed(good, "layout", "layuot"), "D068", "layuot");
+  refused(good + "endain = 'big'\n", "D068", "Did you mean 'endian'");
+  refused(changed(good, "layout", "layuot"), "D068", "layout is missing");
   refused(changed(good, "path = 'p.bin'\n", ""), "D068", "path");
   refused("mote_raw = 1\n", "D068", "file");
   refused(changed(good, "mote_raw = 1", "mote_raw = 2"), "D069", "'2'");
@@ -86,8 +92,10 @@ TEST_F(Raw, BadFilesAreRefused) {
   refused(good + "count = 9000000000000000000\n", "D006", "ends early");
   refused(good + "header = 10\n", "D006", "header");
   save("p.txt", "1 2 3\n4 5\n");
-  refused("mote_raw = 1\n[[file]]\npath = 'p.txt'\nkind = 'text'\nlayout = ['position real 3']\n", "D010", "p.txt:2");
-  refused("mote_raw = 1\n[[file]]\npath = 'p.txt'\nkind = 'text'\ncount = 3\nlayout = ['position real 2']\n", "D006", "3 rows are wanted, 2 are there");
+  refused("mote_raw = 1\n[[file]]\npath = 'p.txt'\nkind = 'text'\nlayout = ['position real 3']\n", "D010",
+          "p.txt:2");
+  refused("mote_raw = 1\n[[file]]\npath = 'p.txt'\nkind = 'text'\ncount = 3\nlayout = ['position real 2']\n",
+          "D006", "3 rows are wanted, 2 are there");
 }
 
 TEST_F(Raw, FilesMustHoldTheSameParticles) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Broken VTK XML, bgeo, npz and packed files: one thing is wrong in each, the code and the words say what.
-#include "tests/data_fields/support.hpp"
-
 #include "core/data/codes_fields.hpp"
+#include "tests/data_fields/support.hpp"
 
 #include <set>
 
@@ -15,17 +14,26 @@ TEST(RefuseVtkXml, StructureAndAttributes) {
   const std::string good = four("four_ascii.vtu");
   expect_refused("a.vtu", changed(good, "</Points>", "</Pionts>"), "D061", "the XML is malformed");
   expect_refused("a.vtu", changed(good, "</VTKFile>", ""), "D006", "</VTKFile> is missing");
-  expect_refused("a.vtu", changed(good, "type=\"UnstructuredGrid\"", "type=\"PUnstructuredGrid\""), "D065", "this file only names others");
-  expect_refused("a.vtu", changed(good, "NumberOfPoints=\"4\"", "NumberOfPionts=\"4\""), "D062", "Piece has no attribute NumberOfPoints");
+  expect_refused("a.vtu", changed(good, "type=\"UnstructuredGrid\"", "type=\"PUnstructuredGrid\""), "D065",
+                 "this file only names others");
+  expect_refused("a.vtu", changed(good, "NumberOfPoints=\"4\"", "NumberOfPionts=\"4\""), "D062",
+                 "Piece has no attribute NumberOfPoints");
   expect_refused("a.vtu", changed(good, "NumberOfPoints=\"4\"", "NumberOfPoints=\"four\""), "D062", "'four'");
-  expect_refused("a.vtu", changed(good, "NumberOfPoints=\"4\"", "NumberOfPoints=\"3\""), "D064", "more than 3 numbers");
-  expect_refused("a.vtu", changed(good, "NumberOfPoints=\"4\"", "NumberOfPoints=\"18446744073709551615\""), "D006", "numbers");
-  expect_refused("a.vtu", changed(good, "Float64\" Name=\"density", "Float65\" Name=\"density"), "D065", "'Float65'");
+  expect_refused("a.vtu", changed(good, "NumberOfPoints=\"4\"", "NumberOfPoints=\"3\""), "D064",
+                 "more than 3 numbers");
+  expect_refused("a.vtu", changed(good, "NumberOfPoints=\"4\"", "NumberOfPoints=\"18446744073709551615\""),
+                 "D006", "numbers");
+  expect_refused("a.vtu", changed(good, "Float64\" Name=\"density", "Float65\" Name=\"density"), "D065",
+                 "'Float65'");
   expect_refused("a.vtu", changed(good, "LittleEndian", "MiddleEndian"), "D062", "'MiddleEndian'");
   expect_refused("a.vtu", changed(good, "UInt32", "UInt16"), "D062", "'UInt16'");
-  expect_refused("a.vtu", changed(good, "format=\"ascii\">\n          1 2.5", "format=\"text\">\n          1 2.5"), "D062", "'text'");
+  expect_refused("a.vtu",
+                 changed(good, "format=\"ascii\">\n          1 2.5", "format=\"text\">\n          1 2.5"),
+                 "D062", "'text'");
   expect_refused("a.vtu", changed(good, " 1 2.5", " 1 2.5x"), "D012", "'2.5x'");
-  expect_refused("a.vtu", changed(good, "<Points>", "<Dots>").replace(good.find("</Points>") - 2, 9, "</Dots>  "), "D062", "has no Points");
+  expect_refused("a.vtu",
+                 changed(good, "<Points>", "<Dots>").replace(good.find("</Points>") - 2, 9, "</Dots>  "),
+                 "D062", "has no Points");
 }
 
 TEST(RefuseVtkXml, PlacesAreLinesOfTheFile) {
@@ -61,7 +69,8 @@ TEST(RefuseVtkXml, CompressedBlocks) {
   text = good;
   text[begin + 31] = 0x7f; // a packed size of 2^62 and more
   expect_refused("a.vtu", text, "D006", "ends early");
-  expect_refused("a.vtu", changed(good, "vtkZLibDataCompressor", "vtkBestDataCompressor"), "D065", "'vtkBestDataCompressor'");
+  expect_refused("a.vtu", changed(good, "vtkZLibDataCompressor", "vtkBestDataCompressor"), "D065",
+                 "'vtkBestDataCompressor'");
 }
 
 TEST(RefuseBgeo, CountsAndTypes) {
@@ -102,8 +111,10 @@ TEST(RefuseNpz, ArchiveAndArrays) {
   text[good.rfind("PK\1\2") + 24] = 99; // unpacked size
   expect_refused("a.npz", text, "D060", "impossible");
   text = good;
-  for (std::size_t at = text.find("pos.npy"); at != std::string::npos; at = text.find("pos.npy")) text.replace(at, 3, "abc");
-  expect_refused("a.npz", text, "D013", "no array gives the position"); // two of shape (4, 3), neither is named so
+  for (std::size_t at = text.find("pos.npy"); at != std::string::npos; at = text.find("pos.npy"))
+    text.replace(at, 3, "abc");
+  expect_refused("a.npz", text, "D013",
+                 "no array gives the position"); // two of shape (4, 3), neither is named so
 }
 
 TEST(RefusePacked, XzAndZstd) {
@@ -118,7 +129,8 @@ TEST(RefusePacked, XzAndZstd) {
 
 TEST(RefusePacked, TwoStreamsBehindOneAnother) {
   for (const std::string name : {"four_ascii.ply.xz", "four_ascii.ply.zst"}) {
-    const auto one = Bytes::from_memory(name, four(name)), two = Bytes::from_memory(name, four(name) + four(name));
+    const auto one = Bytes::from_memory(name, four(name)),
+               two = Bytes::from_memory(name, four(name) + four(name));
     EXPECT_EQ(two->view(), std::string(one->view()) + std::string(one->view()));
     EXPECT_TRUE(two->compressed());
   }

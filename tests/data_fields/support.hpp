@@ -25,7 +25,9 @@ inline std::string content_of(const std::filesystem::path& file) {
   return out.str();
 }
 
-inline std::filesystem::path small_file(std::string_view name) { return std::filesystem::path(MOTE_FIELD_FILES) / name; }
+inline std::filesystem::path small_file(std::string_view name) {
+  return std::filesystem::path(MOTE_FIELD_FILES) / name;
+}
 inline std::filesystem::path pack_file(std::string_view name) {
   return std::filesystem::path(MOTE_SOURCE_DIR) / ".." / "shared" / "data" / name;
 }
@@ -55,7 +57,8 @@ inline Outcome outcome_of(const std::string& name, std::string_view content) {
   return {};
 }
 
-inline void expect_refused(const std::string& name, std::string_view content, std::string_view code, std::string_view words) {
+inline void expect_refused(const std::string& name, std::string_view content, std::string_view code,
+                           std::string_view words) {
   const Outcome outcome = outcome_of(name, content);
   EXPECT_EQ(outcome.code, code) << outcome.text;
   EXPECT_THAT(outcome.text, ::testing::HasSubstr(words));

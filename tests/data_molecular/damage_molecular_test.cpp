@@ -35,7 +35,9 @@ std::vector<Sample> samples() {
 
 class Damage : public testing::TestWithParam<Sample> {};
 
-const std::vector<double>& positions_of(const Frame& frame) { return std::get<std::vector<double>>(frame.find("position")->values); }
+const std::vector<double>& positions_of(const Frame& frame) {
+  return std::get<std::vector<double>>(frame.find("position")->values);
+}
 
 // Empty when `cut` fails as it should or gives a part of what `whole` gives.
 std::string flaw_of_cut(Source& whole, std::string_view cut, std::string_view extension) {
@@ -49,11 +51,13 @@ std::string flaw_of_cut(Source& whole, std::string_view cut, std::string_view ex
       if (source->warnings().has("D051")) continue; // "may be cut off"
       const auto& mine = positions_of(part);
       const auto& theirs = positions_of(all);
-      if (mine.size() > theirs.size() || !std::equal(mine.begin(), mine.end(), theirs.begin())) return fmt::format("garbage in frame {}", f);
+      if (mine.size() > theirs.size() || !std::equal(mine.begin(), mine.end(), theirs.begin()))
+        return fmt::format("garbage in frame {}", f);
       if (part.bonds.rows.size() > all.bonds.rows.size()) return "more bonds";
     }
   } catch (const Failure& failure) {
-    if (failure.exit() != Exit::BadInput || failure.diagnostic().code.empty()) return "not a failure of input";
+    if (failure.exit() != Exit::BadInput || failure.diagnostic().code.empty())
+      return "not a failure of input";
   }
   return {};
 }
@@ -63,7 +67,8 @@ TEST_P(Damage, CutAtEveryByte) {
   const auto whole = open_text(content, extension);
   ASSERT_EQ(flaw_of_cut(*whole, content, extension), "");
   for (std::size_t length = 0; length < content.size(); ++length)
-    ASSERT_EQ(flaw_of_cut(*whole, std::string_view(content).substr(0, length), extension), "") << "cut at " << length << " of " << content.size();
+    ASSERT_EQ(flaw_of_cut(*whole, std::string_view(content).substr(0, length), extension), "")
+        << "cut at " << length << " of " << content.size();
 }
 
 // Bytes changed at random, always the same ones; bounded in time.
@@ -76,7 +81,8 @@ TEST_P(Damage, ChangedBytesAreReadOrRefused) {
     std::string damaged = content;
     for (unsigned k = 0, n = 1 + random() % 4; k < n; ++k) {
       constexpr unsigned char favorites[]{0x00, 0xff, 0x7f, 0x80, 0x01, ' ', '-', '9', '\n', '.'};
-      const auto byte = random() % 2 ? favorites[random() % sizeof favorites] : static_cast<unsigned char>(random());
+      const auto byte =
+          random() % 2 ? favorites[random() % sizeof favorites] : static_cast<unsigned char>(random());
       damaged[random() % damaged.size()] = static_cast<char>(byte);
     }
     ASSERT_EQ(survives(damaged, extension), "") << "round " << rounds;
@@ -89,14 +95,18 @@ TEST_P(Damage, PiecesRemovedOrRepeatedAreReadOrRefused) {
   std::mt19937 random(11);
   for (int round = 0; round < 300; ++round) {
     std::string damaged = content;
-    const std::size_t at = random() % damaged.size(), length = std::min<std::size_t>(1 + random() % 80, damaged.size() - at);
-    if (round % 2) damaged.erase(at, length);
-    else damaged.insert(random() % damaged.size(), content, at, length);
+    const std::size_t at = random() % damaged.size(),
+                      length = std::min<std::size_t>(1 + random() % 80, damaged.size() - at);
+    if (round % 2)
+      damaged.erase(at, length);
+    else
+      damaged.insert(random() % damaged.size(), content, at, length);
     ASSERT_EQ(survives(damaged, extension), "") << "round " << round;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, Damage, testing::ValuesIn(samples()), [](const auto& param) { return param.param.name; });
+INSTANTIATE_TEST_SUITE_P(Formats, Damage, testing::ValuesIn(samples()),
+                         [](const auto& param) { return param.param.name; });
 
 TEST(CutSeries, LeavesOutTheLastFrameWithAWarning) {
   for (const std::string& whole : {make_xtc(3, 17), make_trr(3, 17, false), make_dcd(3, 17, {})}) {

@@ -28,7 +28,8 @@ private:
 
 // Positions in units of 1/1000, three of each kind in turn: alone, alone, with a run of two differences
 // of at most 2^12 (index 39: size 8192); the second atom of such a group is written first.
-std::string pack(const std::vector<std::int64_t>& whole, const std::int64_t low[3], const std::int64_t size[3]) {
+std::string pack(const std::vector<std::int64_t>& whole, const std::int64_t low[3],
+                 const std::int64_t size[3]) {
   Bits bits;
   unsigned width = 0;
   while ((std::uint64_t{1} << width) <= static_cast<std::uint64_t>(size[0] * size[1] * size[2])) ++width;
@@ -76,8 +77,10 @@ void put_packed(Maker& out, std::uint64_t frame, std::uint64_t atoms, bool long_
   for (const std::int64_t v : high) out.put(static_cast<std::int32_t>(v));
   out.put<std::int32_t>(39);
   const std::string bytes = pack(whole, low, size);
-  if (long_size) out.put(static_cast<std::int64_t>(bytes.size()));
-  else out.put(static_cast<std::int32_t>(bytes.size()));
+  if (long_size)
+    out.put(static_cast<std::int64_t>(bytes.size()));
+  else
+    out.put(static_cast<std::int32_t>(bytes.size()));
   out.text(bytes, (bytes.size() + 3) / 4 * 4);
 }
 
@@ -105,11 +108,14 @@ std::string make_xtc(std::uint64_t frames, std::uint64_t atoms, bool long_size) 
 std::string make_trr(std::uint64_t frames, std::uint64_t atoms, bool doubles, std::uint64_t without) {
   Maker out(Order::Big);
   const std::int32_t width = doubles ? 8 : 4, vectors = 3 * static_cast<std::int32_t>(atoms) * width;
-  auto real = [&](double value) { doubles ? (void)out.put(value) : (void)out.put(static_cast<float>(value)); };
+  auto real = [&](double value) {
+    doubles ? (void)out.put(value) : (void)out.put(static_cast<float>(value));
+  };
   for (std::uint64_t f = 0; f < frames; ++f) {
     const bool positions = ((without >> f) & 1) == 0;
     out.put<std::int32_t>(1993).put<std::int32_t>(13).put<std::int32_t>(12).text("GMX_trn_file");
-    for (const std::int32_t v : {0, 0, 9 * width, 0, 0, 0, 0, positions ? vectors : 0, vectors, 0}) out.put(v);
+    for (const std::int32_t v : {0, 0, 9 * width, 0, 0, 0, 0, positions ? vectors : 0, vectors, 0})
+      out.put(v);
     out.put(static_cast<std::int32_t>(atoms)).put(static_cast<std::int32_t>(10 * f)).put<std::int32_t>(0);
     real(0.5 * static_cast<double>(f));
     real(0);
@@ -124,7 +130,8 @@ std::string make_trr(std::uint64_t frames, std::uint64_t atoms, bool doubles, st
 std::string make_dcd(std::uint64_t frames, std::uint64_t atoms, const DcdKind& kind) {
   Maker out(kind.order);
   auto mark = [&](std::size_t length) {
-    kind.width == 8 ? (void)out.put(static_cast<std::uint64_t>(length)) : (void)out.put(static_cast<std::uint32_t>(length));
+    kind.width == 8 ? (void)out.put(static_cast<std::uint64_t>(length))
+                    : (void)out.put(static_cast<std::uint32_t>(length));
   };
   auto record = [&](const Maker& content) {
     mark(content.bytes.size());
@@ -159,7 +166,8 @@ std::string make_dcd(std::uint64_t frames, std::uint64_t atoms, const DcdKind& k
       Maker axis(kind.order);
       for (std::uint64_t a = 0; a < atoms; ++a) {
         bool moves = f == 0 || kind.free.empty();
-        for (const std::int32_t number : kind.free) moves = moves || static_cast<std::uint64_t>(number - 1) == a;
+        for (const std::int32_t number : kind.free)
+          moves = moves || static_cast<std::uint64_t>(number - 1) == a;
         if (moves) axis.put(static_cast<float>(position(f, a, k)));
       }
       record(axis);
@@ -169,14 +177,22 @@ std::string make_dcd(std::uint64_t frames, std::uint64_t atoms, const DcdKind& k
 }
 
 std::string make_gsd(std::uint64_t frames, std::uint64_t atoms, std::uint32_t version) {
-  const std::vector<std::string> names{"configuration/step", "configuration/box", "particles/N",  "particles/position",
-                                       "particles/types",    "particles/typeid",  "bonds/N",      "bonds/group",
-                                       "particles/diameter", "log/energy",        "log/particles/heat"};
+  const std::vector<std::string> names{
+      "configuration/step", "configuration/box", "particles/N",       "particles/position",
+      "particles/types",    "particles/typeid",  "bonds/N",           "bonds/group",
+      "particles/diameter", "log/energy",        "log/particles/heat"};
   Maker out(Order::Little), index(Order::Little), chunks(Order::Little);
   const std::uint64_t names_at = 256, chunks_at = names_at + 64 * 16;
   std::uint64_t entries = 0;
-  auto entry = [&](std::uint64_t frame, std::uint64_t rows, std::uint32_t columns, std::uint16_t name, std::uint8_t type) {
-    index.put(frame).put(rows).put(chunks_at + chunks.bytes.size()).put(columns).put(name).put(type).put<std::uint8_t>(0);
+  auto entry = [&](std::uint64_t frame, std::uint64_t rows, std::uint32_t columns, std::uint16_t name,
+                   std::uint8_t type) {
+    index.put(frame)
+        .put(rows)
+        .put(chunks_at + chunks.bytes.size())
+        .put(columns)
+        .put(name)
+        .put(type)
+        .put<std::uint8_t>(0);
     ++entries;
   };
   const auto count = static_cast<std::uint32_t>(atoms);
@@ -203,8 +219,16 @@ std::string make_gsd(std::uint64_t frames, std::uint64_t atoms, std::uint32_t ve
     entry(f, atoms, 1, 10, 10);
     for (std::uint64_t a = 0; a < atoms; ++a) chunks.put(static_cast<double>(a + f));
   }
-  out.put<std::uint64_t>(0x65DF65DF65DF65DF).put(chunks_at + chunks.bytes.size()).put(entries + 2).put(names_at);
-  out.put<std::uint64_t>(16).put<std::uint32_t>(0x10004).put(version).text("made for the tests", 64).text("hoomd", 64).text("", 80);
+  out.put<std::uint64_t>(0x65DF65DF65DF65DF)
+      .put(chunks_at + chunks.bytes.size())
+      .put(entries + 2)
+      .put(names_at);
+  out.put<std::uint64_t>(16)
+      .put<std::uint32_t>(0x10004)
+      .put(version)
+      .text("made for the tests", 64)
+      .text("hoomd", 64)
+      .text("", 80);
   Maker list(Order::Little);
   for (const std::string& name : names) list.text(name, (version >> 16) < 2 ? 64 : name.size() + 1);
   return out.text(list.bytes, 64 * 16).text(chunks.bytes).text(index.bytes).text("", 64).bytes;
@@ -212,7 +236,9 @@ std::string make_gsd(std::uint64_t frames, std::uint64_t atoms, std::uint32_t ve
 
 std::string make_netcdf(std::uint64_t frames, std::uint64_t atoms, std::uint8_t version) {
   Maker out(Order::Big);
-  auto size = [&](std::uint64_t value) { version == 5 ? (void)out.put(value) : (void)out.put(static_cast<std::uint32_t>(value)); };
+  auto size = [&](std::uint64_t value) {
+    version == 5 ? (void)out.put(value) : (void)out.put(static_cast<std::uint32_t>(value));
+  };
   auto name = [&](std::string_view text) {
     size(text.size());
     out.text(text, (text.size() + 3) / 4 * 4);
@@ -224,7 +250,8 @@ std::string make_netcdf(std::uint64_t frames, std::uint64_t atoms, std::uint8_t 
   out.text("CDF").put(version);
   size(frames);
   list(10, 4);
-  const std::pair<const char*, std::uint64_t> dimensions[]{{"frame", 0}, {"atom", atoms}, {"spatial", 3}, {"cell_spatial", 3}};
+  const std::pair<const char*, std::uint64_t> dimensions[]{
+      {"frame", 0}, {"atom", atoms}, {"spatial", 3}, {"cell_spatial", 3}};
   for (const auto& [label, length] : dimensions) {
     name(label);
     size(length);

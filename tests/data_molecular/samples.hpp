@@ -46,7 +46,7 @@ std::string make_xtc(std::uint64_t frames, std::uint64_t atoms, bool long_size =
 std::string make_trr(std::uint64_t frames, std::uint64_t atoms, bool doubles, std::uint64_t without = 0);
 struct DcdKind {
   Order order{Order::Little};
-  std::uint64_t width{4};   // of record lengths
+  std::uint64_t width{4}; // of record lengths
   bool cell{true};
   std::vector<std::int32_t> free{}; // numbers of free atoms from 1; empty: all are free
 };

@@ -20,7 +20,8 @@ inline std::string text_at(const Frame& frame, std::string_view column, std::uin
 }
 inline glm::dvec3 vector_at(const Frame& frame, std::string_view column, std::uint64_t row) {
   const Column* found = frame.find(column);
-  return found ? glm::dvec3(found->number(row, 0), found->number(row, 1), found->number(row, 2)) : glm::dvec3(NAN);
+  return found ? glm::dvec3(found->number(row, 0), found->number(row, 1), found->number(row, 2))
+               : glm::dvec3(NAN);
 }
 // `text` with the first `from` replaced by `to`; an unchanged text is a mistake of the test.
 inline std::string changed(std::string text, std::string_view from, std::string_view to) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // PDB, mmCIF, GRO and LAMMPS data: every column of a small file, value by value.
-#include "tests/data_molecular/support.hpp"
-
 #include "core/data/cif.hpp"
 #include "core/data/lammps_styles.hpp"
 #include "core/data/molecule.hpp"
+#include "tests/data_molecular/support.hpp"
 
 #include <gmock/gmock.h>
 
@@ -26,8 +25,10 @@ TEST(Pdb, AtomsOfAModel) {
   ASSERT_EQ(frame.count, 4u);
   EXPECT_EQ(vector_at(frame, "position", 1), glm::dvec3(-1, -2, -3.5));
   EXPECT_EQ(frame.find("position")->unit, "A");
-  for (const auto& [row, symbol] : {std::pair(0, "C"), std::pair(1, "H"), std::pair(2, "Ca"), std::pair(3, "O")})
-    EXPECT_EQ(text_at(frame, "element", static_cast<std::uint64_t>(row)), symbol); // rows 1 and 3 by the name's columns
+  for (const auto& [row, symbol] :
+       {std::pair(0, "C"), std::pair(1, "H"), std::pair(2, "Ca"), std::pair(3, "O")})
+    EXPECT_EQ(text_at(frame, "element", static_cast<std::uint64_t>(row)),
+              symbol); // rows 1 and 3 by the name's columns
   EXPECT_EQ(text_at(frame, "atom_name", 1), "HG11");
   EXPECT_EQ(text_at(frame, "residue_name", 1), "VAL");
   EXPECT_EQ(text_at(frame, "chain", 2), "B");
@@ -52,7 +53,8 @@ TEST(Pdb, AnisotropyBoxBondsAndProperties) {
   EXPECT_TRUE(std::isnan(u.number(3, 0)));
   ASSERT_TRUE(frame.box);
   EXPECT_NEAR(frame.box->edges[1].x, -10, 1e-12); // 20 cos 120
-  EXPECT_THAT(frame.bonds.rows, ElementsAre(RowPair{0, 1}, RowPair{0, 2}, RowPair{2, 3})); // behind the last model
+  EXPECT_THAT(frame.bonds.rows,
+              ElementsAre(RowPair{0, 1}, RowPair{0, 2}, RowPair{2, 3})); // behind the last model
   EXPECT_THAT(frame.properties, Contains(Pair("identifier", "9XYZ")));
   EXPECT_THAT(frame.properties, Contains(Pair("model", "1")));
 }
@@ -80,7 +82,8 @@ TEST(Pdb, StructuresBehindEachOtherAreFrames) {
 
 TEST(Pdb, NumbersTooWideForTheirColumns) {
   const std::string row = "ATOM  99999  N   ALA A9999       1.000   2.000   3.000\n";
-  const Frame frame = read_text(row + changed(changed(row, "99999", "A0000"), "9999", "A000") + changed(changed(row, "99999", "*****"), "9999", "****") + "END\n");
+  const Frame frame = read_text(row + changed(changed(row, "99999", "A0000"), "9999", "A000") +
+                                changed(changed(row, "99999", "*****"), "9999", "****") + "END\n");
   EXPECT_EQ(frame.find("id")->number(1), 100000);
   EXPECT_EQ(frame.find("id")->number(2), 100001);
   EXPECT_EQ(frame.find("residue_id")->number(1), 10000);
@@ -88,7 +91,8 @@ TEST(Pdb, NumbersTooWideForTheirColumns) {
 }
 
 TEST(Pdb, BondsToAtomsThatAreNotThereAreAWarning) {
-  const auto source = open_text(changed(molecule_file("two_models.pdb"), "CONECT    1    2    3", "CONECT    1    2   33"));
+  const auto source =
+      open_text(changed(molecule_file("two_models.pdb"), "CONECT    1    2    3", "CONECT    1    2   33"));
   EXPECT_EQ(source->read(0).bonds.rows.size(), 3u); // 3 1 is there too
   EXPECT_TRUE(source->warnings().has("D047"));
 }
@@ -154,8 +158,9 @@ TEST(Mmcif, ModelsMayBeMixed) {
 }
 
 TEST(Mmcif, OneAtomWithoutALoop) {
-  const Frame frame = read_text("data_x\n_atom_site.id 7\n_atom_site.type_symbol ZN\n_atom_site.Cartn_x 1\n_atom_site.Cartn_y 2\n"
-                                "_atom_site.Cartn_z 3\n");
+  const Frame frame = read_text(
+      "data_x\n_atom_site.id 7\n_atom_site.type_symbol ZN\n_atom_site.Cartn_x 1\n_atom_site.Cartn_y 2\n"
+      "_atom_site.Cartn_z 3\n");
   ASSERT_EQ(frame.count, 1u);
   EXPECT_EQ(vector_at(frame, "position", 0), glm::dvec3(1, 2, 3));
   EXPECT_EQ(text_at(frame, "element", 0), "Zn");
@@ -204,7 +209,8 @@ TEST(Gro, TwoFramesOfDifferentPrecision) {
 }
 
 TEST(Gro, ABlankTitle) {
-  const std::string frame = "\n1\n    1SOL     OW    1   0.123   1.234   2.345\n   1.00000   2.00000   3.00000\n";
+  const std::string frame =
+      "\n1\n    1SOL     OW    1   0.123   1.234   2.345\n   1.00000   2.00000   3.00000\n";
   const auto source = open_text(frame + frame, "gro");
   EXPECT_EQ(source->frame_count(), 2u);
   EXPECT_EQ(vector_at(source->read(1), "position", 0), glm::dvec3(0.123, 1.234, 2.345));
@@ -222,7 +228,7 @@ TEST(LammpsData, EverySectionThatIsRead) {
   EXPECT_EQ(frame.find("molecule")->number(3), 2);
   EXPECT_EQ(frame.find("charge")->number(1), -0.82);
   EXPECT_EQ(frame.find("mass")->number(1), 15.9994);
-  EXPECT_EQ(text_at(frame, "element", 0), "H"); // by mass: HW is no symbol
+  EXPECT_EQ(text_at(frame, "element", 0), "H");                        // by mass: HW is no symbol
   EXPECT_EQ(vector_at(frame, "velocity", 0), glm::dvec3(1, 1.1, 1.2)); // by id
   EXPECT_EQ(vector_at(frame, "velocity", 3), glm::dvec3(0.4, 0.5, 0.6));
   EXPECT_THAT(frame.bonds.rows, ElementsAre(RowPair{0, 1}, RowPair{1, 2}));
@@ -234,8 +240,10 @@ TEST(LammpsData, EverySectionThatIsRead) {
 }
 
 TEST(LammpsData, EllipsoidsAndTypeLabels) {
-  const Frame frame = read_text("t\n\n2 atoms\n1 ellipsoids\n2 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\nAtom Type Labels\n\n1 C\n2 Big\n\n"
-                                "Atoms # ellipsoid\n\n1 Big 1 2.5 0 0 0\n2 C 0 1.5 1 1 1\n\nEllipsoids\n\n1 2 4 6 0.5 0.5 0.5 0.5\n");
+  const Frame frame = read_text(
+      "t\n\n2 atoms\n1 ellipsoids\n2 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\nAtom Type "
+      "Labels\n\n1 C\n2 Big\n\n"
+      "Atoms # ellipsoid\n\n1 Big 1 2.5 0 0 0\n2 C 0 1.5 1 1 1\n\nEllipsoids\n\n1 2 4 6 0.5 0.5 0.5 0.5\n");
   EXPECT_EQ(vector_at(frame, "shape", 0), glm::dvec3(1, 2, 3)); // half axes
   EXPECT_EQ(vector_at(frame, "shape", 1), glm::dvec3(0));
   EXPECT_EQ(frame.find("orientation")->number(0, 3), 0.5);

@@ -70,12 +70,14 @@ TEST_F(CopyTest, writes_are_ordered_with_submissions) {
 }
 
 TEST_F(CopyTest, later_write_to_the_same_place_wins) {
-  const Buffer a = buffer(8), b = buffer(8);
+  constexpr std::uint64_t large = 1u << 25; // copied often enough for the device to be at work below
+  const Buffer a = buffer(large), b = buffer(large);
   const std::uint32_t first = 1, second = 2;
   CommandEncoder encoder = device.create_command_encoder();
-  encoder.copy_buffer_to_buffer(a, 0, b, 0, 8);
-  device.queue().submit(encoder.finish()); // a is busy: the writes below are staged
+  for (int i = 0; i < 8; ++i) encoder.copy_buffer_to_buffer(a, 0, b, 0, large);
+  device.queue().submit(encoder.finish()); // a is busy: the next write is staged
   device.queue().write_buffer(a, 0, bytes_of_value(first));
+  device.queue().wait_idle(); // no longer busy, but the first write has not been submitted
   device.queue().write_buffer(a, 0, bytes_of_value(second));
   EXPECT_EQ(values_of<std::uint32_t>(device.read_buffer(a, 0, 4)), counting(1, 2));
 }

@@ -128,6 +128,33 @@ void main() { data[gl_GlobalInvocationID.x] = data[gl_GlobalInvocationID.x] * pu
   EXPECT_THAT(values_of<std::uint32_t>(device.read_buffer(data)), testing::ElementsAre(17u, 27u, 37u, 47u));
 }
 
+TEST_F(DispatchTest, groups_and_push_constants_stay_set_across_pipelines) {
+  const std::string text = R"(#version 450
+layout(local_size_x = 4) in;
+layout(push_constant) uniform Push { uint add; } push;
+layout(set = 0, binding = 0) buffer Data { uint data[]; };
+void main() { data[gl_GlobalInvocationID.x] += push.add; }
+)";
+  const ComputePipeline first = compute(text, one_buffer, 4);
+  const BindGroupLayout first_layout = group_layout;
+  const ComputePipeline second = compute(text, one_buffer, 64); // another layout: Vulkan forgets what was bound
+  const Buffer data = storage("data", {1, 2, 3, 4});
+  const BindGroupEntry entries[] = {{.binding = 0, .buffer = {.buffer = &data}}};
+  const BindGroup group = device.create_bind_group({.layout = &first_layout, .entries = entries});
+  CommandEncoder encoder = device.create_command_encoder();
+  ComputePass pass = encoder.begin_compute_pass();
+  pass.set_bind_group(0, group); // before any pipeline
+  const std::uint32_t ten = 10;
+  pass.set_push_constants(0, bytes_of_value(ten));
+  pass.set_pipeline(first);
+  pass.dispatch(1);
+  pass.set_pipeline(second);
+  pass.dispatch(1);
+  pass.end();
+  submit_and_wait(encoder);
+  EXPECT_THAT(values_of<std::uint32_t>(device.read_buffer(data)), testing::ElementsAre(21u, 22u, 23u, 24u));
+}
+
 TEST_F(DispatchTest, int64_atomics_and_subgroups_work_where_offered) {
   const Feature needed = Feature::Int64Atomics | Feature::ShaderInt64 | Feature::Subgroups;
   ASSERT_TRUE(has(all_features(), needed)) << "lavapipe offers these: " << to_string(all_features());

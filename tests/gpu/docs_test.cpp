@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // docs/gpu.md against the public headers: every object, feature and WebGPU method has its place.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -25,13 +24,16 @@ std::set<std::string> all_matches(const std::string& text, const char* pattern) 
   return found;
 }
 
+bool mentions(const std::string& docs, const std::string& word) { return docs.find("`" + word + "`") != std::string::npos; }
+
 TEST(GpuDocs, every_object_and_method_is_mentioned) {
   const std::string docs = read("docs/gpu.md"), header = read("core/gpu/gpu.hpp");
   for (const std::string& object : all_matches(header, "MOTE_GPU_OBJECT\\((\\w+)\\);")) {
-    EXPECT_THAT(docs, testing::HasSubstr("`" + object + "`")) << object;
+    EXPECT_TRUE(mentions(docs, object)) << object;
   }
   for (const std::string& method : all_matches(header, "\\n  (?:\\[\\[nodiscard\\]\\] )?(?:static )?[\\w:<>&\\* ]+ (\\w+)\\([^)]*\\)(?: const)?;")) {
-    EXPECT_THAT(docs, testing::HasSubstr("`" + method + "`")) << method;
+    if (method == "bool") continue; // operator bool
+    EXPECT_TRUE(mentions(docs, method)) << method;
   }
 }
 
@@ -39,7 +41,7 @@ TEST(GpuDocs, every_feature_is_mentioned) {
   const std::string docs = read("docs/gpu.md"), types = read("core/gpu/types.hpp");
   const std::size_t begin = types.find("enum class Feature"), end = types.find("};", begin);
   for (const std::string& feature : all_matches(types.substr(begin, end - begin), "\\n  (\\w+) = [1-9]")) {
-    EXPECT_THAT(docs, testing::HasSubstr("`" + feature + "`")) << feature;
+    EXPECT_TRUE(mentions(docs, feature)) << feature;
   }
 }
 

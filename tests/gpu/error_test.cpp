@@ -55,7 +55,7 @@ std::set<std::string> codes_in_sources() {
   std::set<std::string> codes;
   const std::regex code("\"(V-[A-Z]+-[0-9]{3})\"");
   for (const auto& file : std::filesystem::recursive_directory_iterator(std::string(MOTE_SOURCE_DIR) + "/core/gpu")) {
-    if (file.path().extension() != ".cpp") continue;
+    if (!file.is_regular_file() || file.path().filename() == "error_codes.hpp") continue;
     std::ifstream in(file.path());
     std::stringstream text;
     text << in.rdbuf();

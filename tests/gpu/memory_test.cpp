@@ -102,6 +102,16 @@ TEST_F(MemoryTest, adapters_are_listed_and_chosen_by_name) {
   EXPECT_EQ(adapter().info().device_uuid.size(), 32u);
 }
 
+TEST_F(MemoryTest, the_first_error_of_a_row_stays) {
+  Error error;
+  const Adapter none = instance().request_adapter({.name = "no such device"}, error);
+  EXPECT_FALSE(none.request_device({}, error));
+  EXPECT_EQ(error.code, "V-ADPT-002");
+  Error fresh;
+  EXPECT_FALSE(none.request_device({}, fresh));
+  EXPECT_EQ(fresh.code, "V-OBJ-001");
+}
+
 TEST_F(MemoryTest, a_feature_that_is_not_offered_is_named) {
   Error error;
   const Device none = adapter().request_device({.label = "greedy", .required_features = static_cast<Feature>(1u << 20) | Feature::GeometryShader}, error);

@@ -97,6 +97,7 @@ TEST(PipelineRules, stages_and_layout) {
 TEST(PipelineRules, texture_bindings) {
   Case c;
   c.fragment = reflect(spirv_of(ShaderStage::Fragment, R"(#version 450
+#extension GL_EXT_samplerless_texture_functions : require
 layout(set = 0, binding = 1) uniform utexture2D ids;
 layout(location = 0) out vec4 color;
 void main() { color = vec4(texelFetch(ids, ivec2(0), 0)); }

@@ -141,6 +141,7 @@ TEST_F(TargetTest, depth_is_tested_read_only_and_sampled_in_one_pass) {
   const PipelineLayout layout = device.create_pipeline_layout({.bind_group_layouts = groups});
   const ShaderModule vertex = shader(ShaderStage::Vertex, fullscreen_vertex); // depth 0.5
   const ShaderModule fragment = shader(ShaderStage::Fragment, R"(#version 450
+#extension GL_EXT_samplerless_texture_functions : require
 layout(set = 0, binding = 0) uniform texture2D depth;
 layout(location = 0) out float result;
 void main() { result = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r; }

@@ -2,9 +2,8 @@
 #include "core/base/atomic_file.hpp"
 #include "tests/image/scratch.hpp"
 
-#include <gmock/gmock.h>
-
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <sys/stat.h>
 
 namespace {
@@ -58,9 +57,11 @@ TEST_F(AtomicFileTest, NamesWhyAFileCannotBeCreated) {
   EXPECT_EQ(d.loc.file, at("none/a.txt"));
   EXPECT_THAT(d.text, HasSubstr("none/a.txt' cannot be written: No such file or directory"));
   EXPECT_THAT(d.text, HasSubstr("there is no folder '" + at("none") + "'"));
-  EXPECT_THAT(failure_of(Exit::Failed, [&] { write_file(folder.string(), "x"); }).text, HasSubstr("Is a directory"));
+  EXPECT_THAT(failure_of(Exit::Failed, [&] { write_file(folder.string(), "x"); }).text,
+              HasSubstr("Is a directory"));
   put("file", "");
-  EXPECT_THAT(failure_of(Exit::Failed, [&] { write_file(at("file/a.txt"), "x"); }).text, HasSubstr("Not a directory"));
+  EXPECT_THAT(failure_of(Exit::Failed, [&] { write_file(at("file/a.txt"), "x"); }).text,
+              HasSubstr("Not a directory"));
   EXPECT_EQ(failure_of(Exit::Failed, [&] { write_file("", "x"); }).code, "I001");
   // refused whoever runs this: nothing may be created in /proc
   EXPECT_EQ(failure_of(Exit::Failed, [&] { write_file("/proc/a.txt", "x"); }).code, "I001");

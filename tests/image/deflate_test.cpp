@@ -40,7 +40,8 @@ void expect_round_trip(const Data& data, const std::string& what) {
 
 TEST(Deflate, IsReadByZlib) {
   std::mt19937 random(3);
-  for (const std::size_t size : {0u, 1u, 2u, 7u, 8u, 9u, 10u, 257u, 258u, 259u, 266u, 267u, 131071u, 131072u, 131073u, 300000u}) {
+  for (const std::size_t size :
+       {0u, 1u, 2u, 7u, 8u, 9u, 10u, 257u, 258u, 259u, 266u, 267u, 131071u, 131072u, 131073u, 300000u}) {
     expect_round_trip(Data(size, 0), "zeros " + std::to_string(size));
     Data data(size);
     for (auto& v : data) v = static_cast<std::uint8_t>(random());
@@ -59,7 +60,8 @@ TEST(Deflate, LimitsTheLengthOfCodes) {
   Data data;
   std::size_t a = 1, b = 1;
   for (std::uint8_t symbol = 0; symbol < 22; ++symbol) {
-    for (std::size_t k = 0; k < a; ++k) data.push_back(static_cast<std::uint8_t>(symbol * 2 + k % 2 * 100)), data.push_back(symbol);
+    for (std::size_t k = 0; k < a; ++k)
+      data.push_back(static_cast<std::uint8_t>(symbol * 2 + k % 2 * 100)), data.push_back(symbol);
     const std::size_t next = a + b;
     a = b, b = next;
   }

@@ -20,7 +20,8 @@ constexpr std::uint32_t width = 61, height = 37;
 TEST_F(ExrTest, KeepsEveryChannel) {
   std::vector<float> rgba(width * height * 4), depth(width * height);
   std::vector<std::uint32_t> id(width * height);
-  for (std::size_t i = 0; i < rgba.size(); ++i) rgba[i] = static_cast<float>(i) / 4096.0f - 0.25f; // halves at 1/4096 up to 1
+  for (std::size_t i = 0; i < rgba.size(); ++i)
+    rgba[i] = static_cast<float>(i) / 4096.0f - 0.25f; // halves at 1/4096 up to 1
   for (std::size_t i = 0; i < depth.size(); ++i) {
     depth[i] = i % 5 == 0 ? std::numeric_limits<float>::infinity() : 1.0f / static_cast<float>(i);
     id[i] = static_cast<std::uint32_t>(i) * 2654435761u;
@@ -44,7 +45,8 @@ TEST_F(ExrTest, KeepsEveryChannel) {
   for (std::size_t i = 0; i < depth.size(); ++i) {
     EXPECT_EQ(back.find("R")->floats[i], rgba[4 * i]);
     EXPECT_EQ(back.find("normal.X")->floats[i], rgba[4 * i + 1]);
-    EXPECT_NEAR(back.find("B")->floats[i], rgba[4 * i + 2], std::max(1e-6, std::fabs(rgba[4 * i + 2]) / 2048.0));
+    EXPECT_NEAR(back.find("B")->floats[i], rgba[4 * i + 2],
+                std::max(1e-6, std::fabs(rgba[4 * i + 2]) / 2048.0));
   }
   EXPECT_THAT(back.attributes, Contains(Pair("software", "mote")));
   EXPECT_THAT(back.attributes, Contains(Pair("scene", "a.toml")));
@@ -54,7 +56,8 @@ TEST_F(ExrTest, KeepsHalvesFinite) {
   const std::vector<float> values{1e6f, -1e6f, std::numeric_limits<float>::infinity(), 65504.0f};
   write_exr(at("a.exr"), 4, 1, {{.name = "R", .type = ExrType::Half, .floats = values.data()}});
   const auto back = read_exr(at("a.exr")).channels[0].floats;
-  EXPECT_EQ(back, (std::vector<float>{65504.0f, -65504.0f, std::numeric_limits<float>::infinity(), 65504.0f}));
+  EXPECT_EQ(back,
+            (std::vector<float>{65504.0f, -65504.0f, std::numeric_limits<float>::infinity(), 65504.0f}));
 }
 
 TEST_F(ExrTest, RefusesWhatCannotBeStored) {
@@ -62,8 +65,16 @@ TEST_F(ExrTest, RefusesWhatCannotBeStored) {
   const ExrPlane r{.name = "R", .floats = v.data()};
   EXPECT_EQ(failure_of(Exit::Failed, [&] { write_exr(at("a.exr"), 0, 4, {r}); }).code, "I008");
   EXPECT_EQ(failure_of(Exit::Failed, [&] { write_exr(at("a.exr"), 4, 1, {}); }).code, "I008");
-  EXPECT_THAT(failure_of(Exit::Failed, [&] { write_exr(at("a.exr"), 4, 1, {r, r}); }).text, HasSubstr("'R' has no name of its own"));
-  EXPECT_EQ(failure_of(Exit::Failed, [&] { write_exr(at("a.exr"), 4, 1, {{.name = "id", .type = ExrType::Uint}}); }).code, "I008");
+  EXPECT_THAT(failure_of(Exit::Failed,
+                         [&] {
+                           write_exr(at("a.exr"), 4, 1, {r, r});
+                         })
+                  .text,
+              HasSubstr("'R' has no name of its own"));
+  EXPECT_EQ(
+      failure_of(Exit::Failed, [&] { write_exr(at("a.exr"), 4, 1, {{.name = "id", .type = ExrType::Uint}}); })
+          .code,
+      "I008");
   {
     const mote::test::FileSizeLimit limit(16); // a full disk
     EXPECT_EQ(failure_of(Exit::Failed, [&] { write_exr(at("a"), 4, 1, {r}); }).code, "I002");

@@ -70,12 +70,16 @@ TEST_F(NpyTest, NamesWhatIsBroken) {
     return d.text;
   };
   EXPECT_THAT(words("PK"), HasSubstr("does not begin as a NumPy array"));
-  EXPECT_THAT(words(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (3,)}", "12345678")), HasSubstr("promises 12 bytes of values, 8 follow"));
-  EXPECT_THAT(words(npy("{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (1,)}", "1234")), HasSubstr("[('x', '<f4')]' is no plain number"));
-  EXPECT_THAT(words(npy("{'descr': '|O', 'fortran_order': False, 'shape': (1,)}", "")), HasSubstr("no plain number"));
+  EXPECT_THAT(words(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (3,)}", "12345678")),
+              HasSubstr("promises 12 bytes of values, 8 follow"));
+  EXPECT_THAT(words(npy("{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (1,)}", "1234")),
+              HasSubstr("[('x', '<f4')]' is no plain number"));
+  EXPECT_THAT(words(npy("{'descr': '|O', 'fortran_order': False, 'shape': (1,)}", "")),
+              HasSubstr("no plain number"));
   EXPECT_THAT(words(npy("{'descr': '<f4', 'fortran_order': False}", "")), HasSubstr("no 'shape'"));
   EXPECT_THAT(words(npy("{'descr': '<f4', 'shape': (-3,)}", "")), HasSubstr("no list of lengths"));
-  EXPECT_THAT(words(npy("{'descr': '<f4', 'shape': (9999999999, 9999999999, 9)}", "")), HasSubstr("too many"));
+  EXPECT_THAT(words(npy("{'descr': '<f4', 'shape': (9999999999, 9999999999, 9)}", "")),
+              HasSubstr("too many"));
   EXPECT_THAT(words(std::string("\x93NUMPY\x09\x00\x10\x00xxxx", 14)), HasSubstr("version '9'"));
   EXPECT_THAT(words(std::string("\x93NUMPY\x01\x00\xff\x00xxxx", 14)), HasSubstr("ends within its header"));
   EXPECT_EQ(failure_of(Exit::BadInput, [&] { read_npy(at("none.npy")); }).code, "I004");

@@ -5,14 +5,14 @@
 #include "core/base/diagnostic.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <sys/resource.h>
-#include <unistd.h>
 
 namespace mote::test {
 
@@ -20,8 +20,8 @@ class Scratch : public testing::Test {
 protected:
   Scratch() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder = std::filesystem::temp_directory_path() /
-             (std::string("mote-") + info->test_suite_name() + "-" + info->name() + "-" + std::to_string(getpid()));
+    folder = std::filesystem::temp_directory_path() / (std::string("mote-") + info->test_suite_name() + "-" +
+                                                       info->name() + "-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
   }
   ~Scratch() override { std::filesystem::remove_all(folder); }

@@ -137,7 +137,7 @@ TEST(FrameBlock, PutsLightsIntoViewSpace) {
   EXPECT_NEAR(block.lights[2].position.z, 10.0, 1e-5);
   EXPECT_EQ(block.lights[2].position.w, 1.0f);
   EXPECT_EQ(block.lights[2].attenuation.z, 2.0f);
-  EXPECT_FLOAT_EQ(block.viewport.z * block.viewport.w, 1.0f);
+  EXPECT_NEAR(view_from({0, 0, 100}, {0, 0, 0}).focal * (double(block.viewport.w) + double(block.depth_near.y)), 1.0, 1e-10);
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -37,10 +39,10 @@ TEST(ColorMaps, AllNamesAreThere) {
 
 // Every entry against the published tables, where they are at hand.
 TEST(ColorMaps, EntriesEqualThePublishedTables) {
-  const std::string folder = std::string(MOTE_SOURCE_DIR) + "/../shared/data/colormaps/";
-  if (!std::ifstream(folder + "viridis.csv")) GTEST_SKIP() << "the published tables are not at hand: " << folder;
+  const std::filesystem::path folder = std::filesystem::path(MOTE_SOURCE_DIR) / "../shared/data/colormaps";
+  if (!std::filesystem::exists(folder / "viridis.csv")) GTEST_SKIP() << "the published tables are not at hand: " << folder;
   for (const ColorMap& map : color_maps()) {
-    std::ifstream file(folder + std::string(map.name) + ".csv");
+    std::ifstream file(folder / (std::string(map.name) + ".csv"));
     std::string line;
     std::size_t i = 0;
     while (std::getline(file, line)) {

@@ -169,6 +169,53 @@ TEST_F(Realize, SeveralDataSetsCountTheirIdsOn) {
   EXPECT_NEAR(s.bounds.max.y, 7.0, 1e-5);
 }
 
+// Two chains; assembly 1 has both turned twice, assembly 2 only chain B, moved.
+const std::string two_chains = R"(REMARK 350 BIOMOLECULE: 1
+REMARK 350 APPLY THE FOLLOWING TO CHAINS: A, B
+REMARK 350   BIOMT1   1  1.000000  0.000000  0.000000        0.00000
+REMARK 350   BIOMT2   1  0.000000  1.000000  0.000000        0.00000
+REMARK 350   BIOMT3   1  0.000000  0.000000  1.000000        0.00000
+REMARK 350   BIOMT1   2 -0.500000 -0.866025  0.000000        0.00000
+REMARK 350   BIOMT2   2  0.866025 -0.500000  0.000000        0.00000
+REMARK 350   BIOMT3   2  0.000000  0.000000  1.000000       10.00000
+REMARK 350 BIOMOLECULE: 2
+REMARK 350 APPLY THE FOLLOWING TO CHAINS: B
+REMARK 350   BIOMT1   1  1.000000  0.000000  0.000000      100.00000
+REMARK 350   BIOMT2   1  0.000000  1.000000  0.000000        0.00000
+REMARK 350   BIOMT3   1  0.000000  0.000000  1.000000        0.00000
+ATOM      1  CA  ALA A   1       5.000   0.000   0.000  1.00  0.00           C
+ATOM      2  CA  ALA B   1       0.000   7.000   0.000  1.00  0.00           C
+END
+)";
+
+TEST_F(Realize, AssembliesAreInstances) {
+  write("two.pdb", two_chains);
+  const Scene first = scene("two.pdb"); // the file's first assembly
+  ASSERT_EQ(first.batches.size(), 1u) << printed();
+  ASSERT_EQ(first.batches[0].instances.size(), 2u);
+  EXPECT_EQ(first.particle_count(), 4u);
+  const glm::dmat4& turn = first.batches[0].instances[1].world_from_data;
+  EXPECT_TRUE(similarity_scale(turn)) << "six decimals are not made rigid";
+  EXPECT_LT(glm::length(glm::dvec3(turn * glm::dvec4(5, 0, 0, 1)) - glm::dvec3(-2.5, 4.3301, 10)), 1e-4);
+  const Scene second = scene("two.pdb", "assembly = \"2\"");
+  ASSERT_EQ(second.batches.size(), 1u);
+  EXPECT_EQ(second.batches[0].chunks->chunks[0].count, 1u);
+  EXPECT_EQ(place(second, 1), 0u); // only row 1
+  EXPECT_GT(second.bounds.min.x, 90.0);
+  EXPECT_EQ(scene("two.pdb", "assembly = \"none\"").particle_count(), 2u);
+  EXPECT_EQ(scene("two.pdb", "assembly = \"2\"\ntransform = [ { scale = 2 } ]").bounds.center().x, 200.0);
+}
+
+TEST_F(Realize, AssembliesThatAreNotThereAreListed) {
+  write("two.pdb", two_chains);
+  scene("two.pdb", "assembly = \"3\"");
+  EXPECT_THAT(printed(), HasSubstr("s.toml:5:12: error S016: "));
+  EXPECT_THAT(printed(), HasSubstr("Assemblies: 1, 2"));
+  write("a.csv", "x,y,z\n0,0,0\n");
+  scene("a.csv", "assembly = \"1\"");
+  EXPECT_THAT(printed(), HasSubstr("has no assemblies"));
+}
+
 TEST_F(Realize, GeneratedScenesHaveAPalette) {
   const std::vector<std::string> words{"spheres:1e3:fit"};
   const Scene s = realize(describe(words, {}, diagnostics), {1280, 720}, diagnostics);

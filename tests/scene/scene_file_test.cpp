@@ -106,6 +106,8 @@ TEST(SceneFile, DefaultsAreAHeadlightOnWhite) {
   ASSERT_EQ(s.lights.size(), 1u);
   EXPECT_EQ(s.lights[0].kind, LightKind::Headlight);
   EXPECT_EQ(s.lights[0].intensity, 0.8);
+  EXPECT_EQ(parse_good("schema = 1\n[[data]]\nfile = \"a.xyz\"\n", {"light.headlight.intensity=0.5"}).lights.at(0).intensity, 0.5);
+  EXPECT_TRUE(parse_good("schema = 1\nlight = []\n[[data]]\nfile = \"a.xyz\"\n").lights.empty());
   EXPECT_EQ(s.data[0].color.rule, ColorRule::Auto);
   EXPECT_EQ(s.data[0].radius.rule, RadiusRule::Auto);
 }
@@ -199,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"\"viridis\"", "\"virids\"", "S006", "Did you mean 'viridis'?"},
         Broken{"range = \"auto\"", "range = \"wide\"", "S004", "\"auto\" or [low, high]"},
         Broken{"model = \"blinn_phong\"", "model = \"toon\"", "S006", "lambert, phong, blinn_phong"},
-        Broken{"assembly = \"none\"", "assembly = \"1\"", "S016", "the file has no assemblies"},
+        Broken{"assembly = \"none\"", "assembly = 1", "S004", "data[0].assembly takes a text"},
         Broken{"{ scale = 2 }", "{ scale = [1, 2, 3] }", "S014", "spheres into ellipsoids"},
         Broken{"{ scale = 2 }", "{ scale = 0 }", "S013", "flattens space"},
         Broken{"{ scale = 2 }", "{ scal = 2 }", "S012", "Did you mean 'scale'?"},
