@@ -8,7 +8,8 @@
 //   void pack(Particle, out vec4 payload[]), Particle unpack(vec4 payload[])
 //   bool drawable(Particle)                          false: radius 0 and the like, drawn as nothing
 //   Proxy proxy(Particle)                            bounds on the image
-//   bool intersect(Ray, Particle, out Interval)      where the ray is inside, and both normals
+//   bool intersect(Ray, Particle, out Interval)      where the ray is inside
+//   vec3 outward_normal(Ray, Particle, Interval, bool exit)   at one end of the interval; unit
 //
 // With NEAR_EYE the particle was placed in double on the CPU (passes/particles/placement.hpp) and arrives as its
 // payload: for chunks so near to the eye that float32 placement would show.
@@ -33,10 +34,10 @@ struct Proxy {
 };
 Proxy empty_proxy() { return Proxy(vec2(1e30), vec2(-1e30), 1.0); }
 
-// Where a ray runs inside a solid; normals point out of it. Parameters are view depths.
+// Where a ray runs inside a solid, as view depths, and what the type wants to remember for the normal.
 struct Interval {
   float t_in, t_out;
-  vec3 normal_in, normal_out;
+  vec4 local;
 };
 
 #include "type.glsl"

@@ -24,14 +24,16 @@ layout(depth_less) out float gl_FragDepth; // reverse-Z: the proxy lies in front
 
 void main() {
   Ray ray = pixel_ray(gl_FragCoord.xy);
+  Particle particle = unpack(v_payload);
   Interval hit;
-  if (!intersect(ray, unpack(v_payload), hit)) discard;
+  if (!intersect(ray, particle, hit)) discard;
 
   // The entry, or the inner wall where the entry lies behind the eye or before the near plane.
   float near = frame.sample_near_far.z;
   bool inside = !(hit.t_in > 0.0 && hit.t_in >= near);
   float t = inside ? hit.t_out : hit.t_in;
-  vec3 normal = inside ? -hit.normal_out : hit.normal_in;
+  vec3 outward = outward_normal(ray, particle, hit, inside);
+  vec3 normal = inside ? -outward : outward;
   if (!(t > 0.0 && t >= near && t <= frame.sample_near_far.w)) discard;
 
   float depth = encode_depth(t);

@@ -84,7 +84,7 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
   }
   float distance = length(l);
   float d2 = (p.radius - distance) * (p.radius + distance); // never r^2 - l^2: cancels at the limb
-  float h = sqrt(max(d2, 0.0) / dot(ray.direction, ray.direction));
+  float h = sqrt(max(d2, 0.0) * (1.0 / dot(ray.direction, ray.direction)));
 #ifdef NEAR_EYE
   // Form P: the product of the roots is the power of the eye, which middle - h would lose to cancellation where the
   // surface is much nearer than the center; the other root is a sum of equal signs. Of the two discriminants the one
@@ -101,7 +101,12 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
   hit.t_in = middle - h;
   hit.t_out = middle + h;
 #endif
-  hit.normal_in = (l - h * ray.direction) / p.radius;
-  hit.normal_out = (l + h * ray.direction) / p.radius;
+  hit.local = vec4(l, h);
   return d2 >= 0.0;
+}
+
+// From the local hit point, never from hit - center, which would lose the ratio distance / radius.
+vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) {
+  float h = exit ? hit.local.w : -hit.local.w;
+  return (hit.local.xyz + h * ray.direction) * (1.0 / p.radius);
 }
