@@ -41,7 +41,7 @@ inline constexpr std::array<AppCode, 18> app_codes{{
     {code::aov_not_made, "usage: no pass of the graph makes the AOV"},
     {code::shipped_graph, "usage: there is no shipped graph of that name"},
     {code::device_failed, "failed: the device reported an error while drawing"},
-    {code::too_many_ids, "failed: more particles than the id AOV can count"},
+    {code::too_many_ids, "usage: more particles than the id AOV can count"},
     {code::not_there_yet, "usage: a command that this version does not have"},
     {code::no_window, "failed: there is no window"},
     {code::set_target, "usage: --set names neither a key of the scene nor a pass of the graph"},

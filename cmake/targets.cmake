@@ -2,6 +2,9 @@
 # mote_test(name SOURCES ... LINK ... [LABELS gpu]): a GoogleTest program whose cases ctest knows one by one.
 add_library(mote_options INTERFACE)
 target_compile_options(mote_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  target_compile_options(mote_options INTERFACE -Wno-dangling-reference) # sees danger in find(name) that returns a reference
+endif()
 if(MOTE_WERROR)
   target_compile_options(mote_options INTERFACE -Werror)
 endif()

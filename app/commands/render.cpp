@@ -142,6 +142,8 @@ void run(const RenderArguments& a) {
   renderer.set_scene(job.scene);
   renderer.wait(renderer.draw(job.view()));
   const DrawnPicture picture = renderer.read();
+  // How far a baked view transform is from the exact one is measured when it is made; say so.
+  if (renderer.display_text().find("baked") != std::string::npos) fmt::print(stderr, "mote: {}\n", renderer.display_text());
   save(a, outputs, picture, provenance_of(a, job, device->info().name, renderer.display_text()));
   const Uninterrupted guard;
   for (const auto& [source, file] : outputs.dumps) renderer.dump(source, file);

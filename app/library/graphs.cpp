@@ -107,7 +107,8 @@ rg::GraphDesc load_graph(const GraphRequest& request, Diagnostics& diagnostics) 
   for (const ShippedGraph& graph : shipped_graph_texts())
     if (graph.name == request.graph) return rg::parse_graph(graph.text, std::string(graph.name) + ".toml", diagnostics);
   const std::vector<std::string> names = shipped_graphs();
-  fail(Exit::Usage, code::shipped_graph, request.loc, fmt::format("there is no shipped graph '{}'", request.graph),
+  const bool by_option = request.loc.file.empty() || request.loc.file.starts_with("--");
+  fail(by_option ? Exit::Usage : Exit::BadInput, code::shipped_graph, request.loc, fmt::format("there is no shipped graph '{}'", request.graph),
        {did_you_mean(request.graph, names), fmt::format("Shipped graphs: {}; a file is named with its ending .toml", list_of(names))});
 }
 

@@ -36,6 +36,7 @@ protected:
     write("ellipsoid.toml", "schema = 1\n[[data]]\nfile = \"good.csv\"\ntransform = [ { scale = [1, 2, 1] } ]\n");
     write("graph.toml", "schema = 1\noutput = \"display.color\"\n[[pass]]\nname = \"display\"\nkind = \"ocio_tonemap\"\ninputs = { color = \"opaque.color\" }\n");
     write("usesgraph.toml", "schema = 1\ngraph = \"graph.toml\"\n[[data]]\nfile = \"good.csv\"\n");
+    write("nograph.toml", "schema = 1\ngraph = \"defalt\"\n[[data]]\nfile = \"good.csv\"\n");
     write("broken.ocio", "not a config");
   }
 };
@@ -104,6 +105,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"scene_file", "render missing.toml -o out.png", 3, "S018", "missing.toml:3:8: error S018"},
         BadInput{"scene_attribute", "render attribute.toml -o out.png", 3, "S021", "Did you mean 'mass'?"},
         BadInput{"scene_camera", "render camera.toml -o out.png", 3, "S011", "eye and target are the same point"},
+        BadInput{"graph_name_in_scene", "render nograph.toml -o out.png", 3, "A006", "Did you mean 'default'?"},
+        BadInput{"camera_up", "render camera.toml --set camera.target=[1,2,9] -o out.png", 2, "S011", "up lies along the view"},
+        BadInput{"camera_near_far", "render good.csv --set camera.near=5 --set camera.far=4 -o out.png", 2, "S011", "near (5) must be less than far (4)"},
+        BadInput{"camera_fov", "render good.csv --set camera.fov_y=180 -o out.png", 2, "S005", "fov_y"},
         BadInput{"scene_ellipsoid", "render ellipsoid.toml -o out.png", 3, "S014", "ellipsoid.toml:4:13"},
         BadInput{"graph_as_scene", "render graph.toml -o out.png", 3, "S009", "render graph"},
         BadInput{"graph_source", "render good.csv --graph graph.toml -o out.png", 3, "G013", "graph.toml:6:"},

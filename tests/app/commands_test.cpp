@@ -176,6 +176,15 @@ TEST_F(Commands, WhatIsAskedForAndNotDrawnIsSaid) {
   EXPECT_THAT(ran.out, HasSubstr("no errors, 2 particles"));
 }
 
+// A baked view transform says how far it is from the exact one; an exact one has nothing to say.
+TEST_F(Commands, BakedViewTransformsSayTheirError) {
+  const Ran baked = mote("render spheres:1e3:fit --size 64x36 --view \"ACES SDR\" -o a.png");
+  EXPECT_EQ(baked.exit, 0);
+  EXPECT_THAT(baked.err, HasSubstr("sRGB / ACES SDR, baked"));
+  const Ran exact = mote("render spheres:1e3:fit --size 64x36 --view \"ACES SDR\" --exact -o a.png");
+  EXPECT_EQ(exact.err, "");
+}
+
 TEST_F(Commands, SignalsEndWithTheirStatus) {
   EXPECT_EQ(shell("timeout --preserve-status -s INT 1 \"$MOTE\" bench spheres:1e5:fill --frames 100000").exit, 130);
   EXPECT_EQ(shell("timeout --preserve-status -s TERM 1 \"$MOTE\" bench spheres:1e5:fill --frames 100000").exit, 143);
