@@ -63,7 +63,7 @@ std::string_view Scan::line() {
 
 std::string_view Scan::take(std::uint64_t bytes, std::string_view what) {
   word_at_ = at_;
-  need_bytes(bytes, left(), place(), what);
+  if (bytes > left()) need_bytes(bytes, left(), place(), what);
   at_ += bytes;
   return all_.substr(word_at_, bytes);
 }

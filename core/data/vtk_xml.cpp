@@ -48,12 +48,18 @@ struct VtkXml::Feed {
   [[nodiscard]] std::uint64_t left() const { // at most
     return encoded ? (text.size() - std::min(decoder.at(), text.size())) / 4 * 3 + 5 : text.size() - used;
   }
-  [[nodiscard]] SourceLoc place() const {
-    if (!encoded) return byte_place(xml->bytes_, begin + used);
-    return text_place(xml->bytes_.name(), xml->bytes_.view(), begin + decoder.at());
+  // Lines are counted from the begin of the file: only for messages.
+  [[nodiscard]] std::uint64_t offset() const { return begin + (encoded ? decoder.at() : used); }
+  [[nodiscard]] SourceLoc place_of(std::uint64_t at) const {
+    if (!encoded) return byte_place(xml->bytes_, at);
+    return text_place(xml->bytes_.name(), xml->bytes_.view(), at);
+  }
+  [[nodiscard]] SourceLoc place() const { return place_of(offset()); }
+  void need(std::uint64_t bytes, std::string_view what) const { // D006
+    if (bytes > left()) need_bytes(bytes, left(), place(), fmt::format("{} {}", what, shown(name_of(array))));
   }
   [[nodiscard]] std::string read(std::uint64_t bytes) {
-    need_bytes(bytes, left(), place(), fmt::format("the array {}", shown(name_of(array))));
+    need(bytes, "the array");
     std::string out(bytes, '\0');
     if (!encoded) {
       out.assign(text.substr(used, bytes));
@@ -229,28 +235,27 @@ std::string VtkXml::blocks(Feed& feed, std::uint64_t wanted, bool exact) const {
   if (exact && total != wanted)
     refuse(feed.array, field_code::length,
            fmt::format("the array {} has {} bytes, but {} are needed", name, total, wanted));
-  need_bytes(times(count, header_size_), feed.left(), feed.place(),
-             fmt::format("the block table of {}", name));
+  feed.need(times(count, header_size_), "the block table of");
   std::vector<std::uint64_t> packed(count);
   std::uint64_t sum = 0;
   for (std::uint64_t& bytes : packed) sum = plus(sum, bytes = header_word(feed));
-  need_bytes(sum, feed.left(), feed.place(), fmt::format("the array {}", name));
+  feed.need(sum, "the array");
   if (last > size ||
       total / 2000 > sum + 1000) // zlib packs at most 1032 : 1, LZ4 255 : 1, LZMA about 7000 : 1
     if (compressor_ != Compressor::Lzma || last > size || total / 10000 > sum + 1000)
       refuse(feed.array, field_code::packed,
              fmt::format("the block sizes of the array {} are impossible", name));
-  need_memory(total, feed.place(), fmt::format("the values of the array {}", name));
+  need_memory(total, place(feed.array), fmt::format("the values of the array {}", name));
   std::string out(total, '\0');
   for (std::uint64_t b = 0; b < count; ++b) {
-    const SourceLoc at = feed.place();
+    const std::uint64_t at = feed.offset();
     const std::string block = feed.read(packed[b]);
     const std::span<char> to(out.data() + b * size, b + 1 == count && last ? last : size);
     const bool good = compressor_ == Compressor::Zlib  ? unpack_zlib(block, to)
                       : compressor_ == Compressor::Lz4 ? unpack_lz4(block, to)
                                                        : unpack_lzma(block, to);
     if (!good)
-      fail(Exit::BadInput, field_code::packed, at,
+      fail(Exit::BadInput, field_code::packed, feed.place_of(at),
            fmt::format("block {} of the array {} is damaged", b, name));
   }
   return out;

@@ -120,6 +120,10 @@ TEST(LegacyVtk, BadFilesAreRefused) {
                  "99999999 99999999\n",
                  "D004", "points need");
   expect_refused(
+      "a.vtk", // 2^64 points: the product must not wrap
+      "# vtk DataFile Version 3.0\n\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 4194304 2097152 2097152\n",
+      "D004", "points need");
+  expect_refused(
       "a.vtk",
       "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 18446744073709551615 float\n1 2 3\n",
       "D006", "ends early");

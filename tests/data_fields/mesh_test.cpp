@@ -111,6 +111,10 @@ TEST(Ply, NormalsAndColors) {
 TEST(Ply, BadFilesAreRefused) {
   expect_refused("a.ply", changed(ply, "vertex 2", "vertex 3"), "D006", "3 vertices are announced");
   expect_refused("a.ply", changed(ply, "vertex 2", "vertex 99999999999"), "D006", "99999999999 vertices");
+  const std::string binary =
+      changed(ply.substr(0, ply.find("0 0 0 0")), "ascii", "binary_little_endian") + "some bytes";
+  expect_refused("a.ply", changed(binary, "vertex 2", "vertex 683212743470724134"), "D006",
+                 "vertices"); // x 27 wraps
   expect_refused("a.ply", changed(ply, "float x", "floot x"), "D065", "Did you mean 'float'");
   expect_refused("a.ply", changed(ply, "float x", "float y"), "D062", "'y' is there twice");
   expect_refused("a.ply", changed(ply, "float x", "float a"), "D013", "position");
