@@ -19,7 +19,7 @@ constexpr std::size_t most_pipelines = 256; // far above what scenes use; beyond
 std::string to_string(const ParticlePipelineKey& k) {
   return fmt::format("{}{} / {} / {} aov={} {} lights={}{} specular={}{}", k.type, k.near_eye ? " near" : "", to_string(k.expansion), to_string(k.phase), k.aovs,
                      k.orthographic ? "orthographic" : "perspective", k.light_count, k.local_lights ? " local" : "",
-                     k.specular_model, k.per_particle_color ? " colors" : "");
+                     k.specular_model, k.per_particle_color ? " colors" : "") + (k.head_light_only ? " head light" : "");
 }
 
 ParticlePipelineKey key_for(const Scene& scene, const View& view, const Batch& batch) {
@@ -34,6 +34,7 @@ ParticlePipelineKey key_for(const Scene& scene, const View& view, const Batch& b
   if (m.specular > 0.0 && m.model == ShadingModel::Phong) key.specular_model = 1;
   if (m.specular > 0.0 && m.model == ShadingModel::BlinnPhong) key.specular_model = 2;
   key.per_particle_color = !batch.chunks->colors.empty();
+  key.head_light_only = key.specular_model == 0 && scene.lights.size() == 1 && scene.lights[0].kind == LightKind::Headlight;
   return key;
 }
 
@@ -70,7 +71,8 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   const gpu::ShaderModule geometry_module = geometry ? module(folder + "/geometry.geom") : gpu::ShaderModule();
   const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(1, key.light_count),
                              gpu::spec(2, key.local_lights), gpu::spec(3, key.specular_model),
-                             gpu::spec(4, key.per_particle_color), gpu::spec(5, key.show_depth_violation)};
+                             gpu::spec(4, key.per_particle_color), gpu::spec(5, key.show_depth_violation),
+                             gpu::spec(6, key.head_light_only)};
   std::vector<gpu::ColorTargetState> targets;
   for (const gpu::TextureFormat format : key.targets) targets.push_back({.format = format});
 

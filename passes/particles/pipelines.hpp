@@ -30,6 +30,7 @@ struct ParticlePipelineKey {
   bool local_lights{};
   std::uint32_t specular_model{}; // 0 none, 1 Phong, 2 Blinn-Phong
   bool per_particle_color{};
+  bool head_light_only{};
   bool show_depth_violation{};
   std::vector<gpu::TextureFormat> targets{};
   gpu::TextureFormat depth{};

@@ -32,6 +32,7 @@ layout(constant_id = 2) const bool local_lights = false;  // any point or spot l
 layout(constant_id = 3) const int specular_model = 0;     // 0 none, 1 Phong, 2 Blinn-Phong
 layout(constant_id = 4) const bool per_particle_color = false;
 layout(constant_id = 5) const bool show_depth_violation = false; // tests: alarm color where FC-29 fails
+layout(constant_id = 6) const bool head_light_only = false; // one head light, no specular: terms are formed once a vertex
 
 struct Ray {
   vec3 origin;    // view space

@@ -67,7 +67,8 @@ const uint chunk_capacity = 64u;
 
 struct Loaded {
   Particle particle;
-  vec4 color;
+  vec4 color; // with head_light_only: color times ambient light
+  vec3 lit;   // with head_light_only: color times the head light, to be multiplied by its cosine
   uint id;
 };
 
@@ -92,6 +93,11 @@ Loaded load_particle(uint index) {
   if (per_particle_color) {
     vec4 own = unpack_color(colors[slot]);
     loaded.color = vec4(own.rgb, own.a * batch.color.a);
+  }
+  loaded.lit = vec3(0.0);
+  if (head_light_only) { // uniforms read in every hidden fragment are costly on a CPU device
+    loaded.lit = batch.material.y * frame.lights[0].strength.rgb * loaded.color.rgb;
+    loaded.color.rgb *= batch.material.x * frame.ambient.rgb;
   }
   loaded.id = batch.id_base + rows[slot];
   return loaded;

@@ -10,10 +10,12 @@ layout(triangle_strip, max_vertices = 4) out;
 layout(location = 0) in vec4 g_color[];
 layout(location = 1) in uint g_id[];
 layout(location = 2) in vec4 g_payload[][payload_vec4s];
+layout(location = 2 + payload_vec4s) in vec3 g_lit[];
 
 layout(location = 0) flat out vec4 v_color;
 layout(location = 1) flat out uint v_id;
 layout(location = 2) flat out vec4 v_payload[payload_vec4s];
+layout(location = 2 + payload_vec4s) flat out vec3 v_lit;
 
 void main() {
   Particle particle = unpack(g_payload[0]);
@@ -22,6 +24,7 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     gl_Position = proxy_corner(bounds, i);
     v_color = g_color[0];
+    v_lit = g_lit[0];
     v_id = g_id[0];
     for (int k = 0; k < payload_vec4s; ++k) v_payload[k] = g_payload[0][k];
     EmitVertex();

@@ -7,11 +7,13 @@
 layout(location = 0) out vec4 g_color;
 layout(location = 1) out uint g_id;
 layout(location = 2) out vec4 g_payload[payload_vec4s];
+layout(location = 2 + payload_vec4s) out vec3 g_lit;
 
 void main() {
   Loaded loaded = load_particle(uint(gl_VertexIndex));
   gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
   g_color = loaded.color;
+  g_lit = loaded.lit;
   g_id = loaded.id;
   pack(loaded.particle, g_payload);
 }

@@ -8,6 +8,7 @@
 layout(location = 0) flat in vec4 v_color;
 layout(location = 1) flat in uint v_id;
 layout(location = 2) flat in vec4 v_payload[payload_vec4s];
+layout(location = 2 + payload_vec4s) flat in vec3 v_lit;
 
 layout(location = 0) out vec4 o_color;
 // AOV is a mask: 1 depth, 2 id, 4 normal; attachments follow each other in this order.
@@ -41,7 +42,7 @@ void main() {
   gl_FragDepth = depth;
 
   Surface at = Surface(ray.origin + t * ray.direction, normal, -normalize(ray.direction));
-  vec3 color = shade(at, v_color.rgb, batch.material);
+  vec3 color = head_light_only ? v_color.rgb + max(-normal.z, 0.0) * v_lit : shade(at, v_color.rgb, batch.material);
   o_color = vec4(violation ? vec3(1.0, 0.0, 1.0) : color, 1.0);
 #if (AOV & 1) != 0
   o_depth = t;
