@@ -6,6 +6,7 @@
 #include "passes/particles/particle_store.hpp"
 #include "passes/particles/pipelines.hpp"
 #include "passes/particles/quad_indices.hpp"
+#include "passes/particles/tiles/tile_renderer.hpp"
 
 #include <fmt/format.h>
 
@@ -34,12 +35,12 @@ class OpaqueImpostors final : public rg::Pass {
 public:
   void declare(std::vector<rg::Slot>& slots, rg::Params& params) override {
     slots.push_back({.name = "color", .access = rg::Access::ColorWrite, .summary = "scene-linear color over the background",
-                     .makes = rg::TextureSpec{.format = TextureFormat::RGBA16Float}});
+                     .makes = rg::TextureSpec{.format = TextureFormat::RGBA16Float}, .copied_into = true});
     slots.push_back({.name = "depth", .access = rg::Access::DepthWrite, .summary = "n / z, reverse-Z",
-                     .makes = rg::TextureSpec{.format = TextureFormat::Depth32Float}});
+                     .makes = rg::TextureSpec{.format = TextureFormat::Depth32Float}, .copied_into = true});
     for (const AovSlot& aov : aov_slots)
       slots.push_back({.name = std::string(aov.name), .access = rg::Access::ColorWrite, .summary = std::string(aov.summary),
-                       .makes = rg::TextureSpec{.format = aov.format}, .optional = true});
+                       .makes = rg::TextureSpec{.format = aov.format}, .optional = true, .copied_into = true});
     for (const rg::LocatedString& type : params.draw())
       if (!find_particle_type(type.text))
         params.error_at("G031", type.loc, fmt::format("there is no particle type '{}'", type.text),
@@ -65,7 +66,9 @@ public:
     return {b.r, b.g, b.b, b.a};
   }
 
-  void update(rg::PassContext& context) override {
+  [[nodiscard]] bool opens_attachments() const override { return true; }
+
+  void record(rg::PassContext& context) override {
     const Scene& scene = context.frame().get<Scene>();
     const View& view = context.frame().get<View>();
     const ParticleStore& store = context.frame().get<ParticleStore>();
@@ -73,21 +76,47 @@ public:
     if (!pipelines_) make_frame_group(device, store);
     const FrameBlock block = frame_block(scene, view);
     device.queue().write_buffer(frame_buffer_, 0, std::as_bytes(std::span(&block, 1)));
-    placed_ = store.place(scene, view);
-    expansion_ = choose_expansion(context.frame().get<FrameOptions>().expansion, device, scene);
-    std::uint32_t most = 0;
-    for (const ParticleDraw& draw : placed_.draws) most = std::max(most, draw.particles);
-    if (expansion_ == Expansion::Vertex) indices_.reserve(device, most);
+    const Expansion expansion = choose_expansion(context.frame().get<FrameOptions>().expansion, device, scene);
+    const bool tiled = expansion == Expansion::Compute && record_tiles(context, store);
+    if (!tiled) placed_ = store.place(scene, view);
+    if (tiled && tiled_.rest.draws.empty()) return;
+    record_draws(context, tiled ? tiled_.rest : placed_, expansion == Expansion::Geometry ? expansion : Expansion::Vertex, tiled);
   }
 
-  void record(rg::PassContext& context) override {
+private:
+  // False: nothing in view is for tiles.
+  bool record_tiles(rg::PassContext& context, const ParticleStore& store) {
     const Scene& scene = context.frame().get<Scene>();
     const View& view = context.frame().get<View>();
-    gpu::RenderPass& pass = context.render_pass();
-    for (const ParticleDraw& draw : placed_.draws) {
+    store.place_tiles(scene, view, tiled_);
+    if (!tiles_) tiles_ = std::make_unique<TileRenderer>(context.device(), pipelines_->frame_layout());
+    if (tiled_.chunks.empty()) return false;
+    tiles_->update(tiled_, view.size.width, view.size.height);
+    ParticlePipelineKey key = key_for(scene, view, scene.batches.front());
+    key.aovs = aovs_;
+    const bool draw_on = !tiled_.rest.draws.empty();
+    const TileTargets targets{.color = context.whole_texture("color"),
+                              .encoded_depth = draw_on || context.kept("depth") ? context.whole_texture("depth") : gpu::Texture(),
+                              .depth = context.whole_texture("aov_depth"),
+                              .id = context.whole_texture("aov_id"),
+                              .normal = context.whole_texture("aov_normal"),
+                              .background = clear_value("color", context.frame())};
+    tiles_->record(context.encoder(), tiled_, frame_group_, key, targets, [&](std::string_view stage) { context.mark(stage); });
+    return true;
+  }
+
+  void record_draws(rg::PassContext& context, const PlacedView& placed, Expansion expansion, bool loaded) {
+    const Scene& scene = context.frame().get<Scene>();
+    const View& view = context.frame().get<View>();
+    std::uint32_t most = 0;
+    for (const ParticleDraw& draw : placed.draws) most = std::max(most, draw.particles);
+    gpu::Device device = context.device();
+    if (expansion == Expansion::Vertex) indices_.reserve(device, most);
+    gpu::RenderPass pass = context.begin_attachments(loaded);
+    for (const ParticleDraw& draw : placed.draws) {
       if (!draws(draw.batch->type)) continue;
       ParticlePipelineKey key = key_for(scene, view, *draw.batch);
-      key.expansion = expansion_;
+      key.expansion = expansion;
       key.near_eye = draw.near_eye;
       key.aovs = aovs_;
       key.targets = targets_;
@@ -97,14 +126,14 @@ public:
       pass.set_bind_group(0, frame_group_);
       pass.set_bind_group(1, draw.group);
       pass.set_push_constants(0, std::as_bytes(std::span(&draw.block, 1)));
-      if (expansion_ == Expansion::Vertex)
+      if (expansion == Expansion::Vertex)
         indices_.draw(pass, draw.particles);
       else
         pass.draw(draw.particles);
     }
+    pass.end();
   }
 
-private:
   [[nodiscard]] bool draws(const std::string& type) const {
     return draw_.empty() || std::find(draw_.begin(), draw_.end(), type) != draw_.end();
   }
@@ -137,12 +166,13 @@ private:
   std::vector<TextureFormat> targets_;
   TextureFormat depth_{};
   std::uint32_t aovs_{};
-  Expansion expansion_{Expansion::Vertex};
   std::unique_ptr<ParticlePipelines> pipelines_;
   gpu::Buffer frame_buffer_;
   gpu::BindGroup frame_group_;
   QuadIndices indices_;
   PlacedView placed_;
+  TiledView tiled_;
+  std::unique_ptr<TileRenderer> tiles_;
 };
 
 } // namespace

@@ -48,6 +48,13 @@ public:
   [[nodiscard]] gpu::RenderPass& render_pass() override { return checked(render_pass_, "a render pass"); }
   [[nodiscard]] gpu::CommandEncoder& encoder() override { return checked(encoder_, "the encoder"); }
 
+  [[nodiscard]] gpu::RenderPass begin_attachments(bool loaded) override { return executor_.open(pass_, frame(), encoder(), loaded); }
+  void mark(std::string_view stage) override { executor_.profiler_.mark(encoder(), stage); }
+  [[nodiscard]] bool kept(std::string_view slot) const override {
+    const auto use = find(slot, true);
+    return use && at(*use).store == gpu::StoreOp::Store;
+  }
+
   // Does this use hold nothing of before: made here, its source missing, or state that was reset?
   [[nodiscard]] bool starts_afresh(std::size_t use) const {
     if (at(use).state) return executor_.resources_.fresh(at(use));
@@ -165,7 +172,7 @@ void Executor::record_pass(std::size_t i, const FrameInput& frame, gpu::CommandE
   profiler_.end_pass(encoder);
 }
 
-void Executor::open_and_record(std::size_t i, const FrameInput& frame, gpu::CommandEncoder& encoder) {
+gpu::RenderPass Executor::open(std::size_t i, const FrameInput& frame, gpu::CommandEncoder& encoder, bool loaded) {
   Context& context = *contexts_[i];
   const auto& uses = plan_.passes[i].uses;
   std::vector<gpu::ColorAttachment> colors;
@@ -174,16 +181,20 @@ void Executor::open_and_record(std::size_t i, const FrameInput& frame, gpu::Comm
     const Use& use = uses[u];
     if (!is_attachment(use.access)) continue;
     const bool clear = use.load == gpu::LoadOp::Load && writes(use.access) && context.starts_afresh(u); // reset state, or an idle source
-    const gpu::LoadOp load = clear ? gpu::LoadOp::Clear : use.load;
+    const gpu::LoadOp load = loaded ? gpu::LoadOp::Load : clear ? gpu::LoadOp::Clear : use.load;
     gpu::Color value{0, 0, 0, 0};
     if (load == gpu::LoadOp::Clear && !use.state) value = passes_[i]->clear_value(use.slot, frame);
     const gpu::TextureView& view = resources_.view(i, u);
     if (is_color(use.access)) colors.push_back({.view = &view, .load = load, .store = use.store, .clear = value});
     else depth = gpu::DepthAttachment{.view = &view, .load = load, .store = use.store, .clear = static_cast<float>(value.r), .read_only = use.access == Access::DepthRead};
   }
-  gpu::RenderPass render_pass = encoder.begin_render_pass({.label = plan_.passes[i].name, .colors = colors, .depth = depth});
-  context.set(&frame, nullptr, &render_pass); // the encoder is locked meanwhile
-  passes_[i]->record(context);
+  return encoder.begin_render_pass({.label = plan_.passes[i].name, .colors = colors, .depth = depth});
+}
+
+void Executor::open_and_record(std::size_t i, const FrameInput& frame, gpu::CommandEncoder& encoder) {
+  gpu::RenderPass render_pass = open(i, frame, encoder, false);
+  contexts_[i]->set(&frame, nullptr, &render_pass); // the encoder is locked meanwhile
+  passes_[i]->record(*contexts_[i]);
   render_pass.end();
 }
 

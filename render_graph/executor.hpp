@@ -53,11 +53,13 @@ public:
   [[nodiscard]] const FrameChoice& last_choice() const { return choice_; } // which passes ran, and why others did not
   // One per pass in plan order, of a frame up to three old; with `wait` of the last one.
   [[nodiscard]] const std::vector<PassTiming>& timings(bool wait = false) { return profiler_.timings(wait); }
+  void set_stage_times(bool on) { profiler_.set_stages(on); } // PassTiming::stages, from the next frame on
 
 private:
   class Context;
   void choose(const FrameInput& frame);
   void record_pass(std::size_t i, const FrameInput& frame, gpu::CommandEncoder& encoder);
+  gpu::RenderPass open(std::size_t i, const FrameInput& frame, gpu::CommandEncoder& encoder, bool loaded);
   void open_and_record(std::size_t i, const FrameInput& frame, gpu::CommandEncoder& encoder);
   void record_copies(std::size_t after, gpu::CommandEncoder& encoder);
 

@@ -72,6 +72,13 @@ public:
   [[nodiscard]] virtual const FrameInput& frame() const = 0;
   [[nodiscard]] virtual gpu::RenderPass& render_pass() = 0;   // drawing passes
   [[nodiscard]] virtual gpu::CommandEncoder& encoder() = 0;   // compute passes, update(), opens_attachments()
+  // For passes that open their attachments themselves: all attachment slots, cleared or loaded as planned; with
+  // `loaded` what the pass has copied into them stays. To be ended before encoder() is used again.
+  [[nodiscard]] virtual gpu::RenderPass begin_attachments(bool loaded) = 0;
+  // Ends a stage of the pass for whoever asked for stage times; encoder() must be free. Cheap otherwise.
+  virtual void mark(std::string_view stage) = 0;
+  // Does anything read this output after the pass?
+  [[nodiscard]] virtual bool kept(std::string_view slot) const = 0;
 };
 
 class Pass {

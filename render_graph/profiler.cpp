@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "render_graph/profiler.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace mote::rg {
+namespace {
+constexpr std::uint32_t most_marks = 1024; // of a frame; later ones are left out
+}
 
 Profiler::Profiler(gpu::Device device, std::vector<std::string> passes)
     : device_(std::move(device)), passes_(std::move(passes)), timestamps_(has(device_.features(), gpu::Feature::TimestampQuery) && !passes_.empty()) {
   if (!timestamps_) return;
-  const auto count = static_cast<std::uint32_t>(passes_.size() * 2);
+  const auto count = static_cast<std::uint32_t>(passes_.size() * 2) + most_marks;
   for (Frame& frame : frames_) {
     frame.queries = device_.create_query_set({.label = "pass timestamps", .type = gpu::QueryType::Timestamp, .count = count});
     frame.resolved = device_.create_buffer({.label = "pass timestamps", .size = count * 8u, .usage = gpu::BufferUsage::QueryResolve | gpu::BufferUsage::CopySrc});
@@ -21,6 +25,7 @@ void Profiler::begin_frame() {
   Frame& frame = frames_[current_];
   if (frame.submission != 0) read(frame); // three frames old: done, or the device is far behind and should be waited for
   frame.used = 0;
+  frame.marks.clear();
   frame.query.assign(passes_.size(), -1);
   frame.timings.assign(passes_.size(), {});
   for (std::size_t i = 0; i < passes_.size(); ++i) frame.timings[i].name = passes_[i];
@@ -32,6 +37,7 @@ void Profiler::begin_pass(gpu::CommandEncoder& encoder, std::size_t pass) {
   if (timestamps_) {
     frame.query[pass] = static_cast<int>(frame.used);
     encoder.write_timestamp(frame.queries, frame.used);
+    last_query_ = frame.used;
     frame.used += 2;
   }
   start_ = Clock::now();
@@ -40,7 +46,15 @@ void Profiler::begin_pass(gpu::CommandEncoder& encoder, std::size_t pass) {
 void Profiler::end_pass(gpu::CommandEncoder& encoder) {
   Frame& frame = frames_[current_];
   frame.timings[pass_].cpu_ms = std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
-  if (timestamps_) encoder.write_timestamp(frame.queries, frame.used - 1);
+  if (timestamps_) encoder.write_timestamp(frame.queries, static_cast<std::uint32_t>(frame.query[pass_]) + 1);
+}
+
+void Profiler::mark(gpu::CommandEncoder& encoder, std::string_view stage) {
+  Frame& frame = frames_[current_];
+  if (!timestamps_ || !stages_ || frame.marks.size() == most_marks) return;
+  frame.marks.push_back({pass_, std::string(stage), frame.used, last_query_});
+  encoder.write_timestamp(frame.queries, frame.used);
+  last_query_ = frame.used++;
 }
 
 void Profiler::skip_pass(std::size_t pass, std::string reason) {
@@ -67,6 +81,15 @@ void Profiler::read(Frame& frame) {
     std::memcpy(ticks, bytes.data() + static_cast<std::size_t>(frame.query[i]) * 8, sizeof ticks);
     const double nanoseconds = ticks[1] > ticks[0] ? static_cast<double>(ticks[1] - ticks[0]) * static_cast<double>(device_.limits().timestamp_period_ns) : 0.0;
     frame.timings[i].gpu_ms = nanoseconds * 1e-6;
+  }
+  for (const Frame::Mark& mark : frame.marks) {
+    std::uint64_t before = 0, after = 0;
+    std::memcpy(&before, bytes.data() + mark.before * 8u, 8);
+    std::memcpy(&after, bytes.data() + mark.query * 8u, 8);
+    auto& stages = frame.timings[mark.pass].stages;
+    auto it = std::find_if(stages.begin(), stages.end(), [&](const StageTiming& s) { return s.name == mark.stage; });
+    if (it == stages.end()) it = stages.insert(it, {mark.stage, 0.0});
+    it->gpu_ms += after > before ? static_cast<double>(after - before) * static_cast<double>(device_.limits().timestamp_period_ns) * 1e-6 : 0.0;
   }
   latest_ = frame.timings;
   frame.submission = 0;

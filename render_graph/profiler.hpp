@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What each pass of a frame took: recording on the CPU, and on the device where it has timestamps
 // (Feature::TimestampQuery). Results come back three frames later, without waiting; asking for the
-// last frame waits for it. Two timestamps a pass, both at the end of all earlier commands.
+// last frame waits for it. Two timestamps a pass, both at the end of all earlier commands; with stages a pass may
+// mark the ends of its parts, whose times are summed by name.
 #pragma once
 
 #include "core/gpu/gpu.hpp"
@@ -14,10 +15,15 @@
 
 namespace mote::rg {
 
+struct StageTiming {
+  std::string name{};
+  double gpu_ms{};
+};
 struct PassTiming {
   std::string name{};
   double cpu_ms{};                // recording, update() included
   std::optional<double> gpu_ms{}; // nothing without timestamps, 0 if skipped
+  std::vector<StageTiming> stages{}; // in order of first appearance; empty unless asked for
   std::string skipped{};          // why it was left out of this frame; empty: it ran
 };
 
@@ -28,6 +34,8 @@ public:
   void begin_frame();
   void begin_pass(gpu::CommandEncoder& encoder, std::size_t pass);
   void end_pass(gpu::CommandEncoder& encoder);
+  void set_stages(bool on) { stages_ = on; }
+  void mark(gpu::CommandEncoder& encoder, std::string_view stage); // ends a stage of the pass that is being recorded
   void skip_pass(std::size_t pass, std::string reason);
   void end_frame(gpu::CommandEncoder& encoder);
   void submitted(gpu::Submission submission);
@@ -43,13 +51,20 @@ private:
     gpu::Submission submission{}; // 0: nothing to read
     std::uint32_t used{};         // queries
     std::vector<int> query{};     // per pass: its first query, or -1
+    struct Mark {
+      std::size_t pass{};
+      std::string stage{};
+      std::uint32_t query{}, before{}; // the stage lies between these two
+    };
+    std::vector<Mark> marks{};
     std::vector<PassTiming> timings{};
   };
   void read(Frame& frame);
 
   gpu::Device device_;
   std::vector<std::string> passes_;
-  bool timestamps_{};
+  bool timestamps_{}, stages_{};
+  std::uint32_t last_query_{};
   std::array<Frame, 3> frames_{};
   std::size_t current_{};
   std::size_t pass_{};

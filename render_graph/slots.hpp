@@ -67,6 +67,7 @@ struct Slot {
   bool state{};                        // ReadWrite + makes, kept between frames, zero after a camera cut, a reload or a resize
   bool buffer{};                       // an input slot that takes a buffer
   bool covers{};                       // attachment: the pass writes every pixel, so that it is not cleared first
+  bool copied_into{};                  // attachment: the pass may also fill it by a copy, outside of drawing
 };
 
 } // namespace mote::rg

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The shipped shaders, embedded: SPIR-V by variant key, GLSL text by path below shaders/.
 // Keys: "<type>/vertex.vert", "<type>/geometry.vert", "<type>/geometry.geom",
-// "<type>/opaque.frag/aov<mask>", the same with "<type>/near" for particles placed on the CPU, and
-// "post/fullscreen.vert" (shaders/CMakeLists.txt makes them).
+// "<type>/opaque.frag/aov<mask>", the same with "<type>/near" for particles placed on the CPU,
+// "<type>/tiles/<kernel>/<lanes>/int<32|64>", "tiles/<kernel>/int<32|64>", and "post/fullscreen.vert" (shaders/CMakeLists.txt makes them).
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,7 @@ struct BenchArguments {
   SceneArguments scene{};
   DeviceArguments device{};
   int frames{20};
-  bool json{};
+  bool json{}, stages{};
 };
 
 double median(std::vector<double> values) {
@@ -35,6 +35,7 @@ double median(std::vector<double> values) {
 struct PassTimes {
   std::string name{};
   std::vector<double> gpu{}, cpu{};
+  std::vector<std::pair<std::string, std::vector<double>>> stages{}; // by name, in order of first appearance
 };
 
 struct Measured {
@@ -60,6 +61,12 @@ Measured measure(FrameRenderer& renderer, const Job& job, int frames) {
       out.passes[i].name = timings[i].name;
       out.passes[i].cpu.push_back(timings[i].cpu_ms);
       if (timings[i].gpu_ms) out.passes[i].gpu.push_back(*timings[i].gpu_ms);
+      for (const rg::StageTiming& stage : timings[i].stages) {
+        auto& stages = out.passes[i].stages;
+        auto it = std::find_if(stages.begin(), stages.end(), [&](const auto& s) { return s.first == stage.name; });
+        if (it == stages.end()) it = stages.insert(it, {stage.name, {}});
+        it->second.push_back(stage.gpu_ms);
+      }
     }
   }
   return out;
@@ -82,6 +89,7 @@ void print_json(const Measured& m, const std::string& device, std::string_view e
     row["name"] = pass.name;
     row["gpu_ms"] = pass.gpu.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(rounded(median(pass.gpu)));
     row["cpu_ms"] = rounded(median(pass.cpu));
+    for (const auto& [name, times] : pass.stages) row["stages"][name] = rounded(median(times));
     json["passes"].push_back(std::move(row));
   }
   fmt::print("{}\n", json.dump(2));
@@ -92,8 +100,10 @@ void print_text(const Measured& m, const std::string& device, std::string_view e
   fmt::print("median {:.2f} ms, from {:.2f} to {:.2f} ms over {} frames; first frame {:.1f} ms\n", median(m.frames),
              *std::min_element(m.frames.begin(), m.frames.end()), *std::max_element(m.frames.begin(), m.frames.end()),
              m.frames.size(), m.first);
-  for (const PassTimes& pass : m.passes)
+  for (const PassTimes& pass : m.passes) {
     fmt::print("  {:<16} device {:>8.2f} ms   recording {:>7.2f} ms\n", pass.name, median(pass.gpu), median(pass.cpu));
+    for (const auto& [name, times] : pass.stages) fmt::print("    {:<14} device {:>8.2f} ms\n", name, median(times));
+  }
 }
 
 void run(const BenchArguments& a) {
@@ -107,6 +117,7 @@ void run(const BenchArguments& a) {
   const ColorConfig config = ColorConfig::load(a.device.display.config);
   DrawingDevice device(a.device.device);
   FrameRenderer renderer(device, std::move(*graph), config, a.device.display, expansion);
+  renderer.set_stage_times(a.stages);
   renderer.set_scene(job.scene);
   const Measured measured = measure(renderer, job, a.frames);
   const std::string_view used = passes::to_string(renderer.expansion());
@@ -121,6 +132,7 @@ void add_bench(CLI::App& app, Exit& exit) {
   add_scene_arguments(*command, a->scene);
   add_device_arguments(*command, a->device);
   command->add_option("--frames", a->frames, "frames in the statistics; three more warm up")->check(CLI::Range(1, 100000))->type_name("N");
+  command->add_flag("--stages", a->stages, "the parts of passes, too");
   command->add_flag("--json", a->json, "as JSON");
   command->callback([a, &exit] {
     run(*a);

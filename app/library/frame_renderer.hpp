@@ -46,6 +46,7 @@ public:
 
   [[nodiscard]] const rg::Plan& plan() const { return executor_.plan(); }
   [[nodiscard]] const std::vector<rg::PassTiming>& timings() { return executor_.timings(true); }
+  void set_stage_times(bool on) { executor_.set_stage_times(on); }
   // "sRGB / Un-tone-mapped", once a frame was drawn.
   [[nodiscard]] const std::string& display_text() const { return *display_text_; }
   [[nodiscard]] passes::Expansion expansion() const; // the one in force

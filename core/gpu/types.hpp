@@ -37,7 +37,7 @@ enum class Feature : std::uint32_t {
   ShaderFloat64 = 8,
   ShaderInt64 = 16,
   Int64Atomics = 32, // on storage buffers
-  Subgroups = 64,    // basic + ballot + arithmetic + broadcast in compute; no size is promised
+  Subgroups = 64,    // basic + vote + ballot + arithmetic + broadcast in compute; no size is promised
   DepthClamp = 128,
 };
 template <> struct IsFlags<Feature> : std::true_type {};
@@ -141,6 +141,7 @@ struct Limits {
   std::uint32_t max_compute_shared_memory_size{};
   std::uint32_t max_geometry_output_vertices{}, max_geometry_total_output_components{};
   std::uint32_t subgroup_size{}; // as the driver reports it; nothing may assume a value
+  std::uint32_t min_subgroup_size{}; // no subgroup of a full workgroup is narrower
   float timestamp_period_ns{};
 };
 

@@ -136,6 +136,7 @@ void fill_chunk(const Sorted& in, std::span<const std::uint32_t> rows, std::span
     const std::uint64_t place = c * chunk_capacity + (k - run.begin);
     const glm::vec4 record(glm::vec3(in.centers[k] - chunk.origin), static_cast<float>(in.radii[k]));
     set.records[place] = record;
+    chunk.max_radius = std::max(chunk.max_radius, record.w);
     set.rows[place] = rows[i];
     if (!colors.empty()) set.colors[place] = colors[i];
     low = glm::min(low, glm::dvec3(record) - double{record.w});

@@ -25,6 +25,7 @@ struct Chunk {
   glm::dvec3 origin{0};               // in the data set's own space
   glm::vec3 box_min{0}, box_max{0};   // relative to origin, radii included
   std::uint32_t count{};              // records in use, <= chunk_capacity
+  float max_radius{};                 // of its particles' bounding spheres
 };
 
 struct ChunkSet {

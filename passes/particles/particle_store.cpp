@@ -2,6 +2,7 @@
 #include "passes/particles/particle_store.hpp"
 
 #include "passes/particles/placement.hpp"
+#include "passes/particles/tiles/tile_placement.hpp"
 
 #include <algorithm>
 #include <array>
@@ -45,6 +46,8 @@ struct ParticleStore::Impl {
     std::vector<PlacedChunk> chunks{};
     std::vector<NearPayload> payloads{};
     std::map<const Slice*, gpu::BindGroup> groups{};
+    // What was placed of a slice and instance, as runs to draw.
+    void append(std::vector<Run>& runs, const Batch& batch, std::size_t instance, const Slice& slice, const PlacedChunks& placed);
   };
   std::map<std::uint32_t, Placements> placements;
 
@@ -54,6 +57,7 @@ struct ParticleStore::Impl {
   Resident make_resident(const std::shared_ptr<const ChunkSet>& set);
   gpu::BindGroup group_for(Placements& placed, const Slice& slice);
   void write(gpu::Buffer& buffer, std::string_view label, std::span<const std::byte> contents, Placements& placed);
+  PlacedView finish(const std::vector<Run>& runs, const View& view, Placements& placed);
   std::vector<Run> place_all(const Scene& scene, const View& view, Placements& placed, std::uint64_t& total) const;
 };
 
@@ -133,26 +137,30 @@ void ParticleStore::Impl::write(gpu::Buffer& buffer, std::string_view label, std
   device.queue().write_buffer(buffer, 0, contents);
 }
 
+void ParticleStore::Impl::Placements::append(std::vector<Run>& runs, const Batch& batch, std::size_t instance, const Slice& slice, const PlacedChunks& placed) {
+  auto add = [&](const std::vector<PlacedChunk>& visible, bool near_eye) {
+    if (visible.empty()) return;
+    runs.push_back({&batch, instance, &slice, static_cast<std::uint32_t>(chunks.size()), static_cast<std::uint32_t>(visible.size()),
+                    static_cast<std::uint32_t>(payloads.size()), near_eye});
+    chunks.insert(chunks.end(), visible.begin(), visible.end());
+  };
+  add(placed.far, false);
+  add(placed.near, true);
+  payloads.insert(payloads.end(), placed.payloads.begin(), placed.payloads.end());
+}
+
 // Places every slice of every instance, in scene order; near chunks are a run of their own.
 std::vector<Run> ParticleStore::Impl::place_all(const Scene& scene, const View& view, Placements& placed, std::uint64_t& total) const {
   std::vector<Run> runs;
   const ViewCuller culler(view);
   PlacedChunks chunks;
-  auto add = [&](const Batch& batch, std::size_t instance, const Slice& slice, const std::vector<PlacedChunk>& visible, bool near_eye) {
-    if (visible.empty()) return;
-    runs.push_back({&batch, instance, &slice, static_cast<std::uint32_t>(placed.chunks.size()), static_cast<std::uint32_t>(visible.size()),
-                    static_cast<std::uint32_t>(placed.payloads.size()), near_eye});
-    placed.chunks.insert(placed.chunks.end(), visible.begin(), visible.end());
-  };
   for (const Batch& batch : scene.batches)
     for (std::size_t k = 0; k < batch.instances.size(); ++k)
       for (const Slice& slice : residents.at(batch.chunks.get()).slices) {
         chunks.far.clear(), chunks.near.clear(), chunks.payloads.clear();
         place_chunks(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler, chunks);
         total += slice.chunk_count;
-        add(batch, k, slice, chunks.far, false);
-        add(batch, k, slice, chunks.near, true);
-        placed.payloads.insert(placed.payloads.end(), chunks.payloads.begin(), chunks.payloads.end());
+        placed.append(runs, batch, k, slice, chunks);
       }
   return runs;
 }
@@ -175,22 +183,75 @@ BatchBlock block_of(const Run& run, const View& view) {
 }
 } // namespace
 
-PlacedView ParticleStore::place(const Scene& scene, const View& view, std::uint32_t slot) const {
-  Impl::Placements& placed = impl_->placements[slot];
-  placed.chunks.clear();
-  placed.payloads.clear();
+PlacedView ParticleStore::Impl::finish(const std::vector<Run>& runs, const View& view, Placements& placed) {
   PlacedView result;
-  const std::vector<Run> runs = impl_->place_all(scene, view, placed, result.chunks_total);
   result.chunks_placed = placed.chunks.size();
-  impl_->write(placed.buffer, "particles.placements", bytes_of(std::span<const PlacedChunk>(placed.chunks)), placed);
-  impl_->write(placed.near_buffer, "particles.near", bytes_of(std::span<const NearPayload>(placed.payloads)), placed);
+  write(placed.buffer, "particles.placements", bytes_of(std::span<const PlacedChunk>(placed.chunks)), placed);
+  write(placed.near_buffer, "particles.near", bytes_of(std::span<const NearPayload>(placed.payloads)), placed);
   for (const Run& run : runs)
     result.draws.push_back({.batch = run.batch,
-                            .group = impl_->group_for(placed, *run.slice),
+                            .group = group_for(placed, *run.slice),
                             .block = block_of(run, view),
                             .particles = run.count * chunk_capacity,
                             .near_eye = run.near_eye});
   return result;
+}
+
+PlacedView ParticleStore::place(const Scene& scene, const View& view, std::uint32_t slot) const {
+  Impl::Placements& placed = impl_->placements[slot];
+  placed.chunks.clear();
+  placed.payloads.clear();
+  std::uint64_t total = 0;
+  const std::vector<Run> runs = impl_->place_all(scene, view, placed, total);
+  PlacedView result = impl_->finish(runs, view, placed);
+  result.chunks_total = total;
+  return result;
+}
+
+namespace {
+TileDraw tile_draw(const Batch& batch, std::size_t instance, const View& view, std::vector<glm::vec4>& materials) {
+  const BatchBlock block = block_of({.batch = &batch, .instance = instance}, view);
+  const auto known = std::find(materials.begin(), materials.end(), block.material);
+  const auto material = static_cast<std::uint32_t>(known - materials.begin());
+  if (known == materials.end()) materials.push_back(block.material);
+  return {.linear0_scale = block.linear0_scale, .linear1 = block.linear1, .linear2 = block.linear2, .color = block.color,
+          .id_base = block.id_base, .colored = !batch.chunks->colors.empty(), .material = material};
+}
+} // namespace
+
+void ParticleStore::place_tiles(const Scene& scene, const View& view, TiledView& out, std::uint32_t slot) const {
+  Impl::Placements& placed = impl_->placements[slot];
+  placed.chunks.clear();
+  placed.payloads.clear();
+  out.chunks.clear();
+  out.draws.clear();
+  out.materials.clear();
+  out.slices.clear();
+  out.flags = 0;
+  std::map<const Slice*, std::uint32_t> slices;
+  std::vector<Run> runs;
+  const ViewCuller culler(view);
+  PlacedForTiles chunks;
+  chunks.tiled.swap(out.chunks);
+  std::uint64_t total = 0;
+  for (const Batch& batch : scene.batches)
+    for (std::size_t k = 0; k < batch.instances.size(); ++k)
+      for (const Slice& slice : impl_->residents.at(batch.chunks.get()).slices) {
+        const auto [known, added] = slices.try_emplace(&slice, static_cast<std::uint32_t>(out.slices.size()));
+        if (added) out.slices.push_back({slice.records, slice.rows, slice.colors});
+        chunks.rest.far.clear(), chunks.rest.near.clear(), chunks.rest.payloads.clear();
+        place_for_tiles(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler,
+                        static_cast<std::uint32_t>(out.draws.size()), chunks);
+        out.draws.push_back(tile_draw(batch, k, view, out.materials));
+        out.draws.back().slice = known->second;
+        out.draws.back().first_flag = out.flags;
+        out.flags += static_cast<std::uint32_t>(slice.chunk_count);
+        total += slice.chunk_count;
+        placed.append(runs, batch, k, slice, chunks.rest);
+      }
+  out.chunks.swap(chunks.tiled);
+  out.rest = impl_->finish(runs, view, placed);
+  out.rest.chunks_total = total;
 }
 
 } // namespace mote::passes

@@ -11,6 +11,7 @@
 
 #include "core/gpu/gpu.hpp"
 #include "core/scene/scene.hpp"
+#include "passes/particles/tiles/tile_blocks.hpp"
 
 #include <glm/glm.hpp>
 
@@ -42,6 +43,20 @@ struct PlacedView {
   std::uint64_t chunks_placed{}, chunks_total{};
 };
 
+// Buffers of one slice: a run of chunks of one set.
+struct SliceBuffers {
+  gpu::Buffer records{}, rows{}, colors{};
+};
+// One view for the compute expansion: what tiles serve, and what they do not, as draws.
+struct TiledView {
+  std::vector<TileChunk> chunks{};   // in no order
+  std::vector<TileDraw> draws{};
+  std::vector<glm::vec4> materials{}; // different ones
+  std::vector<SliceBuffers> slices{};
+  std::uint32_t flags{};             // (instance, chunk) pairs of the scene
+  PlacedView rest{};
+};
+
 class ParticleStore {
 public:
   explicit ParticleStore(gpu::Device device);
@@ -54,6 +69,8 @@ public:
   // Needs upload() of the same scene. `slot` names a buffer of placements that is reused every frame:
   // one for each view that is alive at the same time (camera, lights). Const: placements are a cache.
   PlacedView place(const Scene& scene, const View& view, std::uint32_t slot = 0) const;
+  // The same for the compute expansion; `out` keeps its memory between frames.
+  void place_tiles(const Scene& scene, const View& view, TiledView& out, std::uint32_t slot = 0) const;
 
   [[nodiscard]] const gpu::BindGroupLayout& layout() const; // of set 1
 

@@ -11,10 +11,10 @@ namespace {
 
 // One line a type.
 const std::array<ParticleType, 1> types{{
-    {"sphere", "exact sphere: center, radius", 1, {Expansion::Vertex, Expansion::Geometry}, {Phase::Opaque}},
+    {"sphere", "exact sphere: center, radius", 1, {Expansion::Vertex, Expansion::Geometry, Expansion::Compute}, {Phase::Opaque}},
 }};
 
-constexpr std::array expansions{Expansion::Vertex, Expansion::Geometry};
+constexpr std::array expansions{Expansion::Vertex, Expansion::Geometry, Expansion::Compute};
 constexpr std::array phases{Phase::Opaque};
 
 } // namespace

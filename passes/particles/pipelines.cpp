@@ -42,7 +42,7 @@ ParticlePipelines::ParticlePipelines(gpu::Device device, const gpu::BindGroupLay
   const bool geometry = gpu::has(device_.features(), gpu::Feature::GeometryShader);
   const std::array entries{gpu::BindGroupLayoutEntry{
       .binding = 0,
-      .visibility = gpu::ShaderStage::Vertex | gpu::ShaderStage::Fragment | (geometry ? gpu::ShaderStage::Geometry : gpu::ShaderStage::None),
+      .visibility = gpu::ShaderStage::Vertex | gpu::ShaderStage::Fragment | gpu::ShaderStage::Compute | (geometry ? gpu::ShaderStage::Geometry : gpu::ShaderStage::None),
       .type = gpu::BindingType::UniformBuffer,
       .min_binding_size = sizeof(FrameBlock)}};
   frame_layout_ = device_.create_bind_group_layout({.label = "frame", .entries = entries});

@@ -53,29 +53,38 @@ void place_near(const ChunkSet& set, std::uint64_t chunk, const glm::dmat3& line
 
 } // namespace
 
+ChunkPlacer::ChunkPlacer(const Instance& instance, const View& view, const ViewCuller& culler)
+    : culler_(culler), instance_linear_(instance.world_from_data), linear_(view.rotation * instance_linear_),
+      rotation_(view.rotation), translation_(glm::dvec3(instance.world_from_data[3]) - view.eye),
+      eye_(glm::inverse(instance_linear_) * -translation_), scale_(similarity_scale(instance.world_from_data).value_or(1.0)) {
+  for (int i = 0; i < 3; ++i) reach_[i] = glm::abs(linear_[i]);
+}
+
+bool ChunkPlacer::place(const Chunk& chunk, PlacedBox& out) const {
+  // Subtract the eye before anything is rotated or rounded.
+  out.origin = rotation_ * (instance_linear_ * chunk.origin + translation_);
+  const glm::dvec3 lo(chunk.box_min), hi(chunk.box_max), center = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
+  out.center = out.origin + linear_ * center;
+  if (!culler_.may_see(out.center, linear_, half)) return false;
+  out.extent = reach_ * half;
+  out.near = distance_to_box(eye_, chunk.origin + center, half) < 2.0 * glm::length(half);
+  return true;
+}
+
+void ChunkPlacer::add(const ChunkSet& set, std::uint64_t chunk, std::uint64_t in_slice, const PlacedBox& box, PlacedChunks& out) const {
+  const glm::vec3 o(box.origin);
+  const PlacedChunk placed{glm::uvec4(std::bit_cast<std::uint32_t>(o.x), std::bit_cast<std::uint32_t>(o.y),
+                                      std::bit_cast<std::uint32_t>(o.z), static_cast<std::uint32_t>(in_slice))};
+  (box.near ? out.near : out.far).push_back(placed);
+  if (box.near) place_near(set, chunk, linear_, box.origin, scale_, out.payloads);
+}
+
 void place_chunks(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance,
                   const View& view, const ViewCuller& culler, PlacedChunks& out) {
-  const glm::dmat3 instance_linear(instance.world_from_data);
-  const glm::dmat3 linear = view.rotation * instance_linear;
-  const glm::dvec3 translation = glm::dvec3(instance.world_from_data[3]) - view.eye;
-  const glm::dvec3 eye = glm::inverse(instance_linear) * -translation; // data space
-  const double scale = similarity_scale(instance.world_from_data).value_or(1.0);
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const Chunk& chunk = set.chunks[first + i];
-    // Subtract the eye before anything is rotated or rounded.
-    const glm::dvec3 origin = view.rotation * (instance_linear * chunk.origin + translation);
-    const glm::dvec3 lo(chunk.box_min), hi(chunk.box_max), center = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
-    if (!culler.may_see(origin + linear * center, linear, half)) continue;
-    const glm::vec3 o(origin);
-    const PlacedChunk placed{glm::uvec4(std::bit_cast<std::uint32_t>(o.x), std::bit_cast<std::uint32_t>(o.y),
-                                        std::bit_cast<std::uint32_t>(o.z), static_cast<std::uint32_t>(i))};
-    if (distance_to_box(eye, chunk.origin + center, half) < 2.0 * glm::length(half)) {
-      out.near.push_back(placed);
-      place_near(set, first + i, linear, origin, scale, out.payloads);
-    } else {
-      out.far.push_back(placed);
-    }
-  }
+  const ChunkPlacer placer(instance, view, culler);
+  PlacedBox box;
+  for (std::uint64_t i = 0; i < count; ++i)
+    if (placer.place(set.chunks[first + i], box)) placer.add(set, first + i, i, box, out);
 }
 
 } // namespace mote::passes

@@ -45,6 +45,30 @@ struct PlacedChunks {
   std::vector<NearPayload> payloads{}; // 64 for each near chunk, in order
 };
 
+// Where the box of a chunk is in view space: the chunk's origin, the box's center and axis-aligned half extents.
+struct PlacedBox {
+  glm::dvec3 origin{0}, center{0}, extent{0};
+  bool near{}; // to the eye: see PlacedChunks
+};
+
+// Places the chunks of one instance, one by one.
+class ChunkPlacer {
+public:
+  ChunkPlacer(const Instance& instance, const View& view, const ViewCuller& culler);
+  // False: the view cannot see it.
+  bool place(const Chunk& chunk, PlacedBox& out) const;
+  // Appends a placed chunk for the raster expansions; `in_slice` is its index for the shaders.
+  void add(const ChunkSet& set, std::uint64_t chunk, std::uint64_t in_slice, const PlacedBox& box, PlacedChunks& out) const;
+  [[nodiscard]] double scale() const { return scale_; } // of lengths
+
+private:
+  const ViewCuller& culler_;
+  glm::dmat3 instance_linear_, linear_, rotation_;
+  glm::dvec3 translation_, eye_; // eye: in data space
+  glm::dmat3 reach_{};           // absolute values of linear_
+  double scale_;
+};
+
 // Appends the chunks [first, first + count) of an instance that the view may see; indices count from `first`.
 void place_chunks(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance,
                   const View& view, const ViewCuller& culler, PlacedChunks& out);

@@ -1,46 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What a particle type, an expansion and a phase share. A stage file includes this; this includes
-// "type.glsl", which the include path resolves to the folder of the particle type:
-//
-//   const int record_vec4s, payload_vec4s
-//   struct Particle                                  view-space values of one particle
-//   Particle place(vec4 record[], Placement)         record (chunk-relative) to view space; not with NEAR_EYE
-//   void pack(Particle, out vec4 payload[]), Particle unpack(vec4 payload[])
-//   bool drawable(Particle)                          false: radius 0 and the like, drawn as nothing
-//   Proxy proxy(Particle)                            bounds on the image
-//   bool intersect(Ray, Particle, out Interval)      where the ray is inside
-//   vec3 outward_normal(Ray, Particle, Interval, bool exit)   at one end of the interval; unit
+// What the raster expansions (vertex, geometry) and their phases share: a particle loaded from the buffers of
+// its batch, and its proxy as a rectangle in clip space.
 //
 // With NEAR_EYE the particle was placed in double on the CPU (passes/particles/placement.hpp) and arrives as its
 // payload: for chunks so near to the eye that float32 placement would show.
 #ifndef MOTE_PARTICLE_GLSL
 #define MOTE_PARTICLE_GLSL
 
-#include "common/frame.glsl"
-#include "common/exact.glsl"
-#include "common/color.glsl"
-
-// Places a chunk of one instance: view = linear * relative + origin. The origin was formed in double.
-struct Placement {
-  mat3 linear;
-  vec3 origin;
-  float scale; // of lengths; linear is a similarity
-};
-
-// A rectangle in tangents x/z, y/z (orthographic: in x, y), and the least visible z of the particle.
-struct Proxy {
-  vec2 lo, hi;
-  float z_min;
-};
-Proxy empty_proxy() { return Proxy(vec2(1e30), vec2(-1e30), 1.0); }
-
-// Where a ray runs inside a solid, as view depths, and what the type wants to remember for the normal.
-struct Interval {
-  float t_in, t_out;
-  vec4 local;
-};
-
-#include "type.glsl"
+#include "particles/interface.glsl"
 
 layout(push_constant) uniform BatchBlock {
   vec4 linear0_scale;  // columns of Placement.linear; w of the first: scale

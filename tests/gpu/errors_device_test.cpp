@@ -3,6 +3,8 @@
 // and that follow-up errors keep silent. (Every single rule is tested without a device in gpu_unit.)
 #include "tests/gpu/fixture.hpp"
 
+#include <fmt/format.h>
+
 namespace mote::gpu {
 namespace {
 
@@ -169,7 +171,10 @@ TEST_F(ErrorsTest, draws) {
       pass.draw(3);
     });
   });
-  expect("V-PUSH-001", "[124, 132)", [&] { in_pass(t, [&](RenderPass& pass) { pass.set_push_constants(124, std::as_bytes(std::span("1234567"))); }); });
+  const std::uint32_t most = std::min(256u, device.limits().max_push_constant_size); // 128 on Debian 12's lavapipe, 256 on Debian 13's
+  expect("V-PUSH-001", fmt::format("[{}, {})", most - 4, most + 4), [&] {
+    in_pass(t, [&](RenderPass& pass) { pass.set_push_constants(most - 4, std::as_bytes(std::span("1234567"))); });
+  });
   expect("V-DRAW-009", "4x4", [&] { in_pass(t, [&](RenderPass& pass) { pass.set_scissor(1, 0, 4, 4); }); });
   expect("V-DRAW-008", "0x4", [&] { in_pass(t, [&](RenderPass& pass) { pass.set_viewport(0, 0, 0, 4); }); });
   expect("V-BUF-008", "As the vertex buffer, [Buffer \"b\"] needs usage Vertex; it has Index", [&] { in_pass(t, [&](RenderPass& pass) { pass.set_vertex_buffer(0, buffer(BufferUsage::Index)); }); });

@@ -10,6 +10,7 @@ namespace mote::test {
 namespace {
 
 using passes::Expansion;
+constexpr std::uint32_t no_id = 0xFFFFFFFFu;
 
 class Sphere : public GpuTest {
 protected:
@@ -25,7 +26,19 @@ protected:
     // FC-29: with the alarm on, not one fragment is magenta.
     const Picture alarm = draw(scene, view, {.expansion = Expansion::Vertex, .show_depth_violation = true});
     EXPECT_EQ(alarm.display, vertex.display) << "a fragment's depth breaks the bound that its proxy promises";
+    const Picture compute = draw(scene, view, {.expansion = Expansion::Compute});
+    expect_equals_reference(compute, scene, view, bars);
+    expect_same_surfaces(compute, vertex);
     return vertex;
+  }
+
+  // Where both show the same particle, the surfaces are the same: depth within 4 ulp, color within a half float's step.
+  static void expect_same_surfaces(const Picture& a, const Picture& b) {
+    for (std::size_t i = 0; i < a.id.size(); ++i) {
+      if (a.id[i] != b.id[i] || a.id[i] == no_id) continue;
+      ASSERT_LE(std::abs(a.depth[i] - b.depth[i]), 4 * 1.2e-7f * b.depth[i]) << "pixel " << i;
+      ASSERT_LE(glm::length(a.color[i] - b.color[i]), 2e-3f) << "pixel " << i;
+    }
   }
 
   static std::vector<glm::dvec4> cloud(std::size_t n, double half, double r_min, double r_max, unsigned seed = 3) {

@@ -80,6 +80,7 @@ Limits read_limits(const Properties& p) {
   limits.max_geometry_output_vertices = v.maxGeometryOutputVertices;
   limits.max_geometry_total_output_components = v.maxGeometryTotalOutputComponents;
   limits.subgroup_size = p.v11.subgroupSize;
+  limits.min_subgroup_size = p.v13.minSubgroupSize;
   limits.timestamp_period_ns = v.timestampPeriod;
   return limits;
 }
@@ -87,7 +88,7 @@ Limits read_limits(const Properties& p) {
 Feature read_features(const Properties& p, const Features& f, std::uint32_t timestamp_bits) {
   const VkPhysicalDeviceFeatures& v = f.base.features;
   constexpr VkSubgroupFeatureFlags subgroup =
-      VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+      VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
   Feature features{};
   const auto add = [&](bool offered, Feature feature) { features |= offered ? feature : Feature::None; };
   add(v.geometryShader != 0, Feature::GeometryShader);

@@ -110,3 +110,32 @@ vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) {
   float h = exit ? hit.local.w : -hit.local.w;
   return (hit.local.xyz + h * ray.direction) * (1.0 / p.radius);
 }
+
+#ifdef TILES
+// Along the ray m + u, m the direction to the center with z = 1, everything is a polynomial in u and small where the
+// ray is near the sphere: with A = |m|^2, r the radius and z the center's depth, the ray's d = |m + u|^2 t has the roots
+//   b -+ sqrt(q),   b = z (A + m.u),   q = r^2 |m + u|^2 - z^2 (A u.u - (m.u)^2)
+// (q is the quadratic's discriminant over 4; |d x c|^2 written without the term that cancels). Orthographic: m is the
+// center, |ray| = 1, b = z, q = r^2 - u.u.
+struct TileTest { vec4 a, b, c; };
+
+TileTest tile_test(Particle p, bool alive) {
+  float z = p.center.z, r2 = p.radius * p.radius;
+  if (orthographic) return TileTest(vec4(p.center.xy, alive ? r2 : -1e30, z), vec4(0.0, 0.0, -1.0, -1.0), vec4(0.0));
+  vec2 m = p.center.xy / z;
+  float A = 1.0 + dot(m, m), z2 = z * z;
+  return TileTest(vec4(m, alive ? r2 * A : -1e30, z * A),
+                  vec4(2.0 * r2 * m, r2 - z2 * (1.0 + m.y * m.y), r2 - z2 * (1.0 + m.x * m.x)),
+                  vec4(2.0 * z2 * m.x * m.y, z * m, 0.0));
+}
+
+bool tile_nearer(TileTest s, float x, float y, inout float key) {
+  float ux = x - s.a.x, uy = y - s.a.y;
+  float q = (s.a.z + ux * (s.b.x + ux * s.b.z)) + uy * ((s.b.y + ux * s.c.x) + uy * s.b.w);
+  float b = (s.a.w + ux * s.c.y) + uy * s.c.z;
+  float entry = b - sqrt(max(q, 0.0));
+  bool nearer = q >= 0.0 && entry < key;
+  key = nearer ? entry : key;
+  return nearer;
+}
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Blocks that the kernels of the compute expansion read; mirrors shaders/particles/tiles/work.glsl.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+
+namespace mote::passes {
+
+constexpr std::uint32_t tile_size = 8; // pixels
+
+// Push constants of every kernel.
+struct StepBlock {
+  std::uint32_t first{}, count{}, others{}, region{}, round{}, slice{}, slices{}, capacity{}, list_capacity{};
+  std::uint32_t tiles_x{}, tiles_y{}, level1{}, level2{}, level3{}, width{}, height{};
+  glm::vec4 material{};
+};
+static_assert(sizeof(StepBlock) == 80);
+
+// A corner of a rectangle of tiles: x in bits 0..11, y in 12..23; and tiles of one particle above them.
+inline std::uint32_t pack_corner(glm::uvec2 tile, std::uint32_t most) { return tile.x | tile.y << 12 | (most < 255 ? most : 255u) << 24; }
+inline glm::uvec2 corner(std::uint32_t packed) { return {packed & 0xFFFu, (packed >> 12) & 0xFFFu}; }
+
+// A chunk of one instance that the view may see: where it is, the tiles it may cover (corners, inclusive), and how many
+// tiles one of its particles may cover at most in x (in rect_lo) and y (in rect_hi); 255 and more: all of its rectangle's.
+struct TileChunk {
+  glm::vec3 origin{};
+  float z_min{};
+  std::uint32_t rect_lo{}, rect_hi{}, chunk{}, draw{};
+};
+static_assert(sizeof(TileChunk) == 32);
+
+// One for each (batch, instance, slice).
+struct TileDraw {
+  glm::vec4 linear0_scale{}, linear1{}, linear2{}, color{};
+  std::uint32_t id_base{}, first_flag{}, slice{}, colored{}, material{}, padding[3]{};
+};
+static_assert(sizeof(TileDraw) == 96);
+
+} // namespace mote::passes

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "passes/particles/tiles/tile_kernels.hpp"
+
+#include "passes/particles/tiles/tile_blocks.hpp"
+#include "shaders/embedded.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <stdexcept>
+
+namespace mote::passes {
+namespace {
+
+using Type = gpu::BindingType;
+
+gpu::BindGroupLayout layout_of(gpu::Device& device, std::string_view label, std::span<const Type> types) {
+  std::vector<gpu::BindGroupLayoutEntry> entries;
+  for (const Type type : types)
+    entries.push_back({.binding = static_cast<std::uint32_t>(entries.size()), .visibility = gpu::ShaderStage::Compute, .type = type});
+  return device.create_bind_group_layout({.label = label, .entries = entries});
+}
+
+constexpr Type in = Type::ReadOnlyStorageBuffer, io = Type::StorageBuffer;
+constexpr std::array slice_types{in, in, in};
+constexpr std::array binning_types{in, in, io, io, io, io, io, io, io, io, io, io, io, io}; // binning.glsl
+constexpr std::array cast_types{in, in, in, in, in, in, io, in, in, io, io, io, io, io, io, io}; // cast.comp
+
+} // namespace
+
+TileKernels::TileKernels(gpu::Device device, const gpu::BindGroupLayout& frame) : device_(std::move(device)), words_(gpu::has(device_.features(), gpu::Feature::ShaderInt64) ? "int64" : "int32") {
+  slice_ = layout_of(device_, "tiles.slice", slice_types);
+  binning_ = layout_of(device_, "tiles.binning", binning_types);
+  cast_ = layout_of(device_, "tiles.cast", cast_types);
+  const std::array<const gpu::BindGroupLayout*, 3> binning{&frame, &slice_, &binning_};
+  const std::array<const gpu::BindGroupLayout*, 2> casting{&frame, &cast_};
+  binning_pipelines_ = device_.create_pipeline_layout({.label = "tiles.binning", .bind_group_layouts = binning, .push_constant_size = sizeof(StepBlock)});
+  cast_pipelines_ = device_.create_pipeline_layout({.label = "tiles.cast", .bind_group_layouts = casting, .push_constant_size = sizeof(StepBlock)});
+}
+
+std::uint32_t TileKernels::lanes(const gpu::Device& device) {
+  if (!gpu::has(device.features(), gpu::Feature::Subgroups)) return 0;
+  for (const std::uint32_t lanes : {32u, 16u, 8u, 4u})
+    if (lanes <= device.limits().min_subgroup_size) return lanes;
+  return 0;
+}
+
+gpu::ComputePipeline TileKernels::make(const std::string& shader, const gpu::PipelineLayout& layout, std::span<const gpu::SpecializationConstant> constants) {
+  const auto words = shaders::spirv(shader);
+  if (words.empty()) throw std::logic_error("no shipped shader '" + shader + "'");
+  const gpu::ShaderModule module = device_.create_shader_module({.label = shader, .spirv = words});
+  return device_.create_compute_pipeline({.label = shader, .layout = &layout, .compute = {.module = &module, .constants = constants}});
+}
+
+const gpu::ComputePipeline& TileKernels::kernel(const std::string& name) {
+  gpu::ComputePipeline& pipeline = kernels_[name];
+  if (!pipeline) pipeline = make(fmt::format("tiles/{}/{}", name, words_), binning_pipelines_, {});
+  return pipeline;
+}
+
+const gpu::ComputePipeline& TileKernels::place(const ParticlePipelineKey& key, bool first_round) {
+  if (auto it = places_.find({key, first_round}); it != places_.end()) return it->second;
+  const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(4, key.per_particle_color), gpu::spec(11, (key.aovs & aov_id_bit) != 0),
+                             gpu::spec(12, first_round)};
+  const std::string shader = fmt::format("{}/tiles/place/{}/{}", key.type, lanes(device_), words_);
+  return places_.emplace(std::pair(key, first_round), make(shader, binning_pipelines_, constants)).first->second;
+}
+
+const gpu::ComputePipeline& TileKernels::cast(const CastKey& key) {
+  if (auto it = casts_.find(key); it != casts_.end()) return it->second;
+  const ParticlePipelineKey& d = key.drawing;
+  const std::array constants{gpu::spec(0, d.orthographic), gpu::spec(1, d.light_count), gpu::spec(2, d.local_lights), gpu::spec(3, d.specular_model),
+                             gpu::spec(6, d.head_light_only), gpu::spec(10, d.aovs), gpu::spec(12, key.first_round),
+                             gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth)};
+  const std::string shader = fmt::format("{}/tiles/cast/{}/{}", d.type, lanes(device_), words_);
+  return casts_.emplace(key, make(shader, cast_pipelines_, constants)).first->second;
+}
+
+} // namespace mote::passes

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Pipelines and layouts of the compute expansion's kernels, made when first asked for and kept.
+//
+// Sets: 0 the frame block; 1 the records of a slice (place) or what casting reads and writes (cast); 2 the
+// buffers of binning (cull, place, allocate, scatter, far).
+#pragma once
+
+#include "core/gpu/gpu.hpp"
+#include "passes/particles/pipelines.hpp"
+
+#include <compare>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mote::passes {
+
+struct CastKey {
+  ParticlePipelineKey drawing{}; // type, aovs, projection, lights, model, colors; the rest of it is not looked at
+  bool first_round{}, one_material{}, want_depth{};
+  std::uint32_t color_words{2};  // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float
+  auto operator<=>(const CastKey&) const = default;
+};
+
+class TileKernels {
+public:
+  TileKernels(gpu::Device device, const gpu::BindGroupLayout& frame);
+  // Invocations of a workgroup that casts: the widest variant that no subgroup of the device is narrower than; 0: the
+  // device has no subgroup operations, or narrower ones than any variant.
+  [[nodiscard]] static std::uint32_t lanes(const gpu::Device& device);
+
+  [[nodiscard]] const gpu::ComputePipeline& kernel(const std::string& name); // "cull", "allocate", "scatter", "far"
+  [[nodiscard]] const gpu::ComputePipeline& place(const ParticlePipelineKey& key, bool first_round);
+  [[nodiscard]] const gpu::ComputePipeline& cast(const CastKey& key);
+  [[nodiscard]] const gpu::BindGroupLayout& slice_layout() const { return slice_; }
+  [[nodiscard]] const gpu::BindGroupLayout& binning_layout() const { return binning_; }
+  [[nodiscard]] const gpu::BindGroupLayout& cast_layout() const { return cast_; }
+
+private:
+  gpu::ComputePipeline make(const std::string& shader, const gpu::PipelineLayout& layout, std::span<const gpu::SpecializationConstant> constants);
+
+  gpu::Device device_;
+  std::string words_; // "int64": buffers are read two words at a time, which needs the feature; else "int32"
+  gpu::BindGroupLayout slice_, binning_, cast_;
+  gpu::PipelineLayout binning_pipelines_, cast_pipelines_;
+  std::map<std::string, gpu::ComputePipeline> kernels_;
+  std::map<std::pair<ParticlePipelineKey, bool>, gpu::ComputePipeline> places_;
+  std::map<CastKey, gpu::ComputePipeline> casts_;
+};
+
+} // namespace mote::passes

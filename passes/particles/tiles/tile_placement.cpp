@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "passes/particles/tiles/tile_placement.hpp"
+
+#include <cmath>
+
+namespace mote::passes {
+namespace {
+
+// Decides whether tiles serve a box in view space, and which of them it may cover.
+class TileRects {
+public:
+  explicit TileRects(const View& view)
+      : view_(view), perspective_(view.projection == Projection::Perspective),
+        offset_(view.sample_offset - 0.5 * glm::dvec2(view.size.width, view.size.height)),
+        last_(view.size.width - 1.0, view.size.height - 1.0), least_z_(std::max(view.near_cut, view.depth_near) * (1.0 + 1e-5)) {}
+
+  // False: not for tiles. Chunks that cover no pixel center have an empty rectangle: `any` is false.
+  bool place(const PlacedBox& box, double radius, TileChunk& out, bool& any) const {
+    const double slack = 1e-6 * glm::length(box.center);
+    const double z_min = box.center.z - box.extent.z - slack, z_max = box.center.z + box.extent.z + slack;
+    if (box.near || z_min < least_z_ || (view_.far_cut > 0 && z_max > view_.far_cut)) return false;
+    const glm::dvec2 lo = glm::dvec2(box.center - box.extent) - slack, hi = glm::dvec2(box.center + box.extent) + slack;
+    glm::dvec2 first, last; // pixels
+    for (int k = 0; k < 2; ++k) {
+      const double a = perspective_ ? lo[k] / (lo[k] < 0 ? z_min : z_max) : lo[k];
+      const double b = perspective_ ? hi[k] / (hi[k] > 0 ? z_min : z_max) : hi[k];
+      first[k] = std::max(0.0, std::ceil(a * view_.focal - offset_[k] - 0.05));
+      last[k] = std::min(last_[k], std::floor(b * view_.focal - offset_[k] + 0.05));
+    }
+    any = first.x <= last.x && first.y <= last.y;
+    if (!any) return true;
+    const glm::uvec2 tile_lo = glm::uvec2(first) / tile_size, tile_hi = glm::uvec2(last) / tile_size;
+    const glm::uvec2 most = most_tiles(radius, z_min, z_max, glm::max(glm::abs(lo), glm::abs(hi)));
+    out.rect_lo = pack_corner(tile_lo, most.x);
+    out.rect_hi = pack_corner(tile_hi, most.y);
+    out.origin = glm::vec3(box.origin);
+    out.z_min = static_cast<float>(z_min);
+    return true;
+  }
+
+private:
+  // Tiles in x and y that a sphere covers at most if its nearest point is not before z_min and its center within `reach`
+  // of the axis. Its extent in tangents is 2 r sqrt(x^2 + z^2 - r^2) / (z^2 - r^2) (method book, 4.1).
+  [[nodiscard]] glm::uvec2 most_tiles(double radius, double z_min, double z_max, glm::dvec2 reach) const {
+    glm::uvec2 most;
+    for (int k = 0; k < 2; ++k) {
+      const double extent = perspective_ ? 2 * radius * std::hypot(reach[k], z_max) / (z_min * (z_min + 2 * radius)) : 2 * radius;
+      most[k] = static_cast<std::uint32_t>(std::min(extent * view_.focal + 0.1, 1e6)) / tile_size + 2;
+    }
+    return most;
+  }
+
+  const View& view_;
+  bool perspective_;
+  glm::dvec2 offset_, last_;
+  double least_z_;
+};
+
+} // namespace
+
+void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance, const View& view,
+                     const ViewCuller& culler, std::uint32_t draw, PlacedForTiles& out) {
+  const ChunkPlacer placer(instance, view, culler);
+  const TileRects rects(view);
+  PlacedBox box;
+  TileChunk tiled;
+  tiled.draw = draw;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (!placer.place(set.chunks[first + i], box)) continue;
+    bool any = false;
+    if (!rects.place(box, placer.scale() * double{set.chunks[first + i].max_radius}, tiled, any)) {
+      placer.add(set, first + i, i, box, out.rest);
+    } else if (any) {
+      tiled.chunk = static_cast<std::uint32_t>(i);
+      out.tiled.push_back(tiled);
+    }
+  }
+}
+
+} // namespace mote::passes

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// How the compute expansion cuts a frame into steps and rounds: pure, no device.
+//
+// Chunks are put in order of depth, front to back. The first step takes the chunks that were seen in the last frame, all
+// at once; the others are tested against its depth in a few steps, the nearest first, so that after a camera cut (when
+// hardly anything was seen before) the front hides the back all the same. Each step runs in rounds: every chunk reserves
+// the entries it could need at most, and rounds are cut where the reservations pass the capacity, so that no buffer can
+// overflow whatever the scene.
+#pragma once
+
+#include "passes/particles/tiles/tile_blocks.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mote::passes {
+
+// Entries that a chunk reserves: for each particle the tiles that the largest may cover; at least 4 a particle, which
+// bounds the number of chunks of a round (capacity / 256). As in cull.comp.
+std::uint64_t reserved_entries(const TileChunk& chunk);
+
+struct TileStep {
+  std::uint32_t first{}, count{}; // chunks, in depth order
+  bool others{};                  // not those that were seen in the last frame
+  std::uint32_t rounds{};
+  bool operator==(const TileStep&) const = default;
+};
+struct TilePlan {
+  std::uint32_t tiles_x{}, tiles_y{};
+  std::uint32_t level1{}, level2{}, level3{}, cells{}; // starts of the coarser levels of depth, and cells of all levels
+  std::uint32_t capacity{};      // entries a round may reserve before the next begins
+  std::uint32_t most_entries{};  // that a round can hold: capacity and one chunk more
+  std::uint32_t list_capacity{}; // chunks of one round
+  std::vector<TileStep> steps{};
+  [[nodiscard]] std::uint32_t most_rounds() const;
+};
+
+// Stable, by z_min in steps of 1/1024 or finer. `order` is scratch that is kept between frames.
+void sort_by_depth(std::vector<TileChunk>& chunks, std::vector<TileChunk>& scratch);
+
+// `chunks` in depth order; `most_capacity`: entries that memory allows in a round.
+TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std::uint32_t height, std::uint32_t most_capacity);
+
+} // namespace mote::passes

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#include "passes/particles/tiles/tile_renderer.hpp"
+
+#include "passes/particles/particle_type.hpp"
+
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace mote::passes {
+namespace {
+
+using Usage = gpu::BufferUsage;
+constexpr std::uint32_t most_capacity = 1u << 22;     // entries of a round: 16 MiB of them, 52 MiB of placed particles
+constexpr float infinitely_far = 3e38f;               // as in cast.comp
+constexpr std::uint32_t infinity_bits = 0x7F800000u;
+constexpr std::uint32_t workgroup = 64;               // of all kernels but cast
+
+std::uint32_t words_of(gpu::TextureFormat format) {
+  switch (format) {
+  case gpu::TextureFormat::RGBA8Unorm: return 1;
+  case gpu::TextureFormat::RGBA16Float: return 2;
+  case gpu::TextureFormat::RGBA32Float: return 4;
+  default: return 0;
+  }
+}
+
+// Uints of a step's arguments: a cursor, then (x, y, z, total) for each slice, for allocate and for cast, each round.
+std::uint32_t region_size(std::uint32_t rounds, std::size_t slices) { return 4u + rounds * 4u * (static_cast<std::uint32_t>(slices) + 2u); }
+
+std::vector<std::uint32_t> background_words(gpu::Color c, std::uint32_t words) {
+  const glm::vec4 v(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a));
+  if (words == 1) return {glm::packUnorm4x8(v)};
+  if (words == 2) return {glm::packHalf2x16(glm::vec2(v.x, v.y)), glm::packHalf2x16(glm::vec2(v.z, v.w))};
+  return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z), std::bit_cast<std::uint32_t>(v.w)};
+}
+
+} // namespace
+
+bool TileRenderer::works(const gpu::Device& device, gpu::TextureFormat color) { return TileKernels::lanes(device) != 0 && words_of(color) != 0; }
+
+TileRenderer::TileRenderer(gpu::Device device, const gpu::BindGroupLayout& frame) : device_(device), kernels_(std::move(device), frame) {}
+
+bool TileRenderer::reserve(gpu::Buffer& buffer, std::string_view label, std::uint64_t bytes, Usage usage) {
+  bytes = std::max<std::uint64_t>(bytes, 16);
+  if (buffer && buffer.size() >= bytes) return false;
+  buffer = {};
+  buffer = device_.create_buffer({.label = label, .size = bytes, .usage = usage});
+  return true;
+}
+
+void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t height) {
+  sort_by_depth(view.chunks, scratch_);
+  plan_ = plan_tiles(view.chunks, width, height, most_capacity);
+  block_ = {.slices = static_cast<std::uint32_t>(view.slices.size()), .capacity = plan_.capacity, .list_capacity = plan_.list_capacity,
+            .tiles_x = plan_.tiles_x, .tiles_y = plan_.tiles_y, .level1 = plan_.level1, .level2 = plan_.level2, .level3 = plan_.level3,
+            .width = width, .height = height, .material = view.materials.empty() ? glm::vec4(0) : view.materials.front()};
+  if (view.chunks.empty()) return;
+
+  regions_.clear();
+  arguments_.clear();
+  for (const TileStep& step : plan_.steps) {
+    regions_.push_back(static_cast<std::uint32_t>(arguments_.size()));
+    arguments_.resize(arguments_.size() + region_size(step.rounds, view.slices.size()), 1u);
+    for (std::size_t i = regions_.back(); i < arguments_.size(); ++i)
+      if (i < regions_.back() + 4u || i % 4 == 0 || i % 4 == 3) arguments_[i] = 0u; // (x, 1, 1, total)
+  }
+  auto upload = [&](gpu::Buffer& buffer, std::string_view label, std::span<const std::byte> bytes) {
+    reserve(buffer, label, bytes.size() + bytes.size() / 4, Usage::Storage | Usage::CopyDst | Usage::CopySrc);
+    device_.queue().write_buffer(buffer, 0, bytes);
+  };
+  upload(buffers_.chunks, "tiles.chunks", std::as_bytes(std::span(view.chunks)));
+  upload(buffers_.draws, "tiles.draws", std::as_bytes(std::span(view.draws)));
+  upload(buffers_.materials, "tiles.materials", std::as_bytes(std::span(view.materials)));
+  upload(buffers_.argument_template, "tiles.argument_template", std::as_bytes(std::span(arguments_)));
+  flags_fresh_ = reserve(buffers_.flags, "tiles.flags", view.flags * 4ull, Usage::Storage | Usage::CopyDst);
+}
+
+void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets) {
+  Buffers& b = buffers_;
+  const std::uint64_t pixels = std::uint64_t{block_.width} * block_.height, places = std::uint64_t{plan_.list_capacity} * chunk_capacity;
+  const std::uint64_t payload = find_particle_type(key.type)->vec4s_per_record * sizeof(glm::vec4);
+  const Usage storage = Usage::Storage | Usage::CopyDst | Usage::CopySrc;
+  reserve(b.lists, "tiles.lists", std::uint64_t{plan_.most_rounds()} * block_.slices * plan_.list_capacity * 4, storage);
+  reserve(b.arguments, "tiles.arguments", arguments_.size() * 4, storage);
+  reserve(b.indirect, "tiles.indirect", arguments_.size() * 4, Usage::Indirect | Usage::CopyDst);
+  reserve(b.payloads, "tiles.payloads", places * payload, storage);
+  reserve(b.colors, "tiles.colors", places * 8, storage);
+  reserve(b.ids, "tiles.ids", targets.id ? places * 4 : 0, storage);
+  reserve(b.rects, "tiles.rects", places * 8, storage);
+  reserve(b.z_mins, "tiles.z_mins", places * 4, storage);
+  reserve(b.tiles, "tiles.tiles", plan_.level1 * 16ull, storage);
+  reserve(b.far, "tiles.far", plan_.cells * 4ull, storage);
+  reserve(b.active, "tiles.active", plan_.level1 * 4ull, storage);
+  reserve(b.entries, "tiles.entries", plan_.most_entries * 4ull, storage);
+  reserve(b.nearest, "tiles.nearest", pixels * 4, storage);
+  reserve(b.color, "tiles.color", pixels * color_words_ * 4, storage);
+  reserve(b.unused_color, "tiles.unused_color", 0, storage);
+  reserve(b.encoded, "tiles.encoded_depth", targets.encoded_depth ? pixels * 4 : 0, storage);
+  reserve(b.depth, "tiles.depth", targets.depth ? pixels * 4 : 0, storage);
+  reserve(b.id, "tiles.id", targets.id ? pixels * 4 : 0, storage);
+  reserve(b.normal, "tiles.normal", targets.normal ? pixels * 16 : 0, storage);
+}
+
+void TileRenderer::make_groups(const TiledView& view) {
+  auto group = [&](std::string_view label, const gpu::BindGroupLayout& layout, std::initializer_list<const gpu::Buffer*> buffers) {
+    std::vector<gpu::BindGroupEntry> entries;
+    for (const gpu::Buffer* buffer : buffers) entries.push_back({.binding = static_cast<std::uint32_t>(entries.size()), .buffer = {buffer}});
+    return device_.create_bind_group({.label = label, .layout = &layout, .entries = entries});
+  };
+  slice_groups_.clear();
+  for (const SliceBuffers& slice : view.slices)
+    slice_groups_.push_back(group("tiles.slice", kernels_.slice_layout(), {&slice.records, &slice.rows, &slice.colors}));
+  const Buffers& b = buffers_;
+  binning_group_ = group("tiles.binning", kernels_.binning_layout(),
+                         {&b.chunks, &b.draws, &b.flags, &b.lists, &b.arguments, &b.payloads, &b.colors, &b.ids, &b.rects, &b.tiles, &b.far, &b.active, &b.entries, &b.z_mins});
+  const bool narrow = color_words_ == 1;
+  cast_group_ = group("tiles.cast", kernels_.cast_layout(),
+                      {&b.materials, &b.payloads, &b.colors, &b.ids, &b.z_mins, &b.tiles, &b.far, &b.active, &b.entries, &b.nearest,
+                       narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color});
+}
+
+void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& targets) {
+  Buffers& b = buffers_;
+  const std::uint32_t pixels = block_.width * block_.height;
+  encoder.copy_buffer_to_buffer(b.argument_template, 0, b.arguments, 0, arguments_.size() * 4);
+  encoder.clear_buffer(b.tiles);
+  encoder.clear_buffer(b.far, 0, 0, infinity_bits);
+  encoder.clear_buffer(b.nearest, 0, 0, std::bit_cast<std::uint32_t>(infinitely_far));
+  if (flags_fresh_) encoder.clear_buffer(b.flags);
+  if (targets.encoded_depth) encoder.clear_buffer(b.encoded);
+  if (targets.depth) encoder.clear_buffer(b.depth, 0, 0, infinity_bits);
+  if (targets.id) encoder.clear_buffer(b.id, 0, 0, 0xFFFFFFFFu);
+  if (targets.normal) encoder.clear_buffer(b.normal);
+
+  const std::vector<std::uint32_t> words = background_words(targets.background, color_words_);
+  if (std::all_of(words.begin(), words.end(), [&](std::uint32_t w) { return w == words.front(); })) {
+    encoder.clear_buffer(b.color, 0, 0, words.front());
+    return;
+  }
+  // A pattern that a fill cannot make is made once and copied.
+  const bool same = background_pixels_ == pixels && background_.r == targets.background.r && background_.g == targets.background.g &&
+                    background_.b == targets.background.b && background_.a == targets.background.a;
+  if (!same) {
+    std::vector<std::uint32_t> image(std::size_t{pixels} * color_words_);
+    for (std::size_t i = 0; i < image.size(); ++i) image[i] = words[i % words.size()];
+    reserve(b.background, "tiles.background", image.size() * 4, Usage::CopyDst | Usage::CopySrc);
+    device_.queue().write_buffer(b.background, 0, std::as_bytes(std::span(image)));
+    background_ = targets.background;
+    background_pixels_ = pixels;
+  }
+  encoder.copy_buffer_to_buffer(b.background, 0, b.color, 0, std::uint64_t{pixels} * color_words_ * 4);
+}
+
+void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, const TiledView& view, const gpu::BindGroup& frame_group, const CastKey& key, const Mark& mark) {
+  const TileStep& step = plan_.steps[index];
+  const auto slices = static_cast<std::uint32_t>(view.slices.size());
+  StepBlock block = block_;
+  block.first = step.first;
+  block.count = step.count;
+  block.others = step.others ? 1 : 0;
+  block.region = regions_[index];
+  auto groups = [](std::uint32_t invocations) { return (invocations + workgroup - 1) / workgroup; };
+  auto begin = [&](gpu::ComputePass& pass, const gpu::ComputePipeline& pipeline) {
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(0, frame_group);
+    pass.set_bind_group(1, slice_groups_[block.slice]);
+    pass.set_bind_group(2, binning_group_);
+    pass.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
+  };
+  auto offset = [&](std::uint32_t round, std::uint32_t slot) { return (block.region + 4u + (round * (slices + 2u) + slot) * 4u) * 4ull; };
+
+  gpu::ComputePass cull = encoder.begin_compute_pass({.label = "tiles.cull"});
+  begin(cull, kernels_.kernel("cull"));
+  cull.dispatch(groups(step.count));
+  cull.end();
+  mark("cull");
+  encoder.copy_buffer_to_buffer(buffers_.arguments, block.region * 4ull, buffers_.indirect, block.region * 4ull, region_size(step.rounds, slices) * 4ull);
+  for (std::uint32_t round = 0; round < step.rounds; ++round) {
+    block.round = round;
+    gpu::ComputePass place = encoder.begin_compute_pass({.label = "tiles.place"});
+    for (block.slice = 0; block.slice < slices; ++block.slice) {
+      begin(place, kernels_.place(key.drawing, key.first_round && round == 0));
+      place.dispatch_indirect(buffers_.indirect, offset(round, block.slice));
+    }
+    block.slice = 0;
+    begin(place, kernels_.kernel("allocate"));
+    place.dispatch_indirect(buffers_.indirect, offset(round, slices));
+    place.end();
+    mark("place");
+    encoder.copy_buffer_to_buffer(buffers_.arguments, offset(round, slices + 1), buffers_.indirect, offset(round, slices + 1), 16);
+    gpu::ComputePass cast = encoder.begin_compute_pass({.label = "tiles.cast"});
+    for (block.slice = 0; block.slice < slices; ++block.slice) {
+      begin(cast, kernels_.kernel("scatter"));
+      cast.dispatch_indirect(buffers_.indirect, offset(round, block.slice));
+    }
+    cast.end();
+    mark("scatter");
+    cast = encoder.begin_compute_pass({.label = "tiles.cast"});
+    block.slice = 0;
+    CastKey variant = key;
+    variant.first_round = key.first_round && round == 0;
+    cast.set_pipeline(kernels_.cast(variant));
+    cast.set_bind_group(0, frame_group);
+    cast.set_bind_group(1, cast_group_);
+    cast.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
+    cast.dispatch_indirect(buffers_.indirect, offset(round, slices + 1));
+    cast.end();
+    mark(step.others ? "cast others" : "cast");
+  }
+  if (index + 1 == plan_.steps.size()) return;
+  gpu::ComputePass far = encoder.begin_compute_pass({.label = "tiles.far"});
+  begin(far, kernels_.kernel("far"));
+  far.dispatch(groups(plan_.cells - plan_.level1));
+  far.end();
+  mark("far");
+}
+
+void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& targets) {
+  const gpu::Extent3d size{block_.width, block_.height, 1};
+  auto copy = [&](const gpu::Buffer& from, const gpu::Texture& to) {
+    if (to) encoder.copy_buffer_to_texture({.buffer = &from}, {.texture = &to}, size);
+  };
+  copy(buffers_.color, targets.color);
+  copy(buffers_.encoded, targets.encoded_depth);
+  copy(buffers_.depth, targets.depth);
+  copy(buffers_.id, targets.id);
+  copy(buffers_.normal, targets.normal);
+}
+
+void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& drawing,
+                          const TileTargets& targets, const Mark& mark) {
+  color_words_ = words_of(targets.color.format());
+  CastKey key{.drawing = drawing, .first_round = true, .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth), .color_words = color_words_};
+  reserve_frame(drawing, targets);
+  make_groups(view);
+  clear(encoder, targets);
+  mark("clear");
+  for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
+    if (flags_fresh_ && !plan_.steps[i].others) continue; // nothing was seen before
+    record_step(encoder, i, view, frame_group, key, mark);
+    key.first_round = false;
+  }
+  copy_out(encoder, targets);
+  mark("copy");
+}
+
+} // namespace mote::passes

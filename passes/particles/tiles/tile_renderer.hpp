@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// The compute expansion: draws one view's chunks by tiles of 8x8 pixels, in compute kernels, into buffers that are then
+// copied into the pass's textures. shaders/particles/tiles/work.glsl tells how a frame runs; tile_plan.hpp how it is cut.
+//
+// Keeps which chunks were seen, from one frame to the next; nothing else. A stale memory (a camera cut, another scene)
+// costs time and never changes the picture. Buffers grow with what is in view and are bounded by the plan.
+#pragma once
+
+#include "core/gpu/gpu.hpp"
+#include "passes/particles/particle_store.hpp"
+#include "passes/particles/tiles/tile_kernels.hpp"
+#include "passes/particles/tiles/tile_plan.hpp"
+
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace mote::passes {
+
+// Where pictures go: textures that may be copied to; an invalid one is left out. All of the view's size.
+struct TileTargets {
+  gpu::Texture color{}, encoded_depth{}, depth{}, id{}, normal{};
+  gpu::Color background{};
+};
+
+class TileRenderer {
+public:
+  TileRenderer(gpu::Device device, const gpu::BindGroupLayout& frame);
+  // Whether this device can, with these targets' color format.
+  [[nodiscard]] static bool works(const gpu::Device& device, gpu::TextureFormat color);
+
+  // Uploads; before the encoder's passes. Sorts view.chunks by depth. `view` must live until record().
+  void update(TiledView& view, std::uint32_t width, std::uint32_t height);
+  // Records everything, the copies to the targets included. `key`: the scene's needs; type and aovs filled in.
+  // `mark` is told the end of each stage.
+  using Mark = std::function<void(std::string_view stage)>;
+  void record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& key,
+              const TileTargets& targets, const Mark& mark);
+
+private:
+  struct Buffers {
+    gpu::Buffer chunks{}, draws{}, materials{}, flags{}, lists{}, arguments{}, argument_template{}, indirect{}, payloads{}, colors{}, ids{}, rects{}, z_mins{}, tiles{},
+        far{}, active{}, entries{}, nearest{}, color{}, unused_color{}, background{}, encoded{}, depth{}, id{}, normal{};
+  };
+  bool reserve(gpu::Buffer& buffer, std::string_view label, std::uint64_t bytes, gpu::BufferUsage usage);
+  void reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets);
+  void make_groups(const TiledView& view);
+  void clear(gpu::CommandEncoder& encoder, const TileTargets& targets);
+  void record_step(gpu::CommandEncoder& encoder, std::size_t index, const TiledView& view, const gpu::BindGroup& frame_group, const CastKey& key, const Mark& mark);
+  void copy_out(gpu::CommandEncoder& encoder, const TileTargets& targets);
+
+  gpu::Device device_;
+  TileKernels kernels_;
+  TilePlan plan_{};
+  Buffers buffers_{};
+  std::vector<std::uint32_t> arguments_{}, regions_{}; // the template of all steps' arguments; where each step's start
+  std::vector<TileChunk> scratch_{};
+  StepBlock block_{};
+  std::vector<gpu::BindGroup> slice_groups_{};
+  gpu::BindGroup binning_group_{}, cast_group_{};
+  gpu::Color background_{};
+  std::uint32_t background_pixels_{}, color_words_{2};
+  bool flags_fresh_{};
+};
+
+} // namespace mote::passes

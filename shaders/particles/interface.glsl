@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What a particle type gives, whatever the expansion. The expansion includes this; this includes "type.glsl",
+// which the include path resolves to the folder of the particle type:
+//
+//   const int record_vec4s, payload_vec4s
+//   struct Particle                                  view-space values of one particle
+//   Particle place(vec4 record[], Placement)         record (chunk-relative) to view space; not with NEAR_EYE
+//   void pack(Particle, out vec4 payload[]), Particle unpack(vec4 payload[])
+//   bool drawable(Particle)                          false: radius 0 and the like, drawn as nothing
+//   Proxy proxy(Particle)                            bounds on the image
+//   bool intersect(Ray, Particle, out Interval)      where the ray is inside; on a miss the interval is one point
+//   vec3 outward_normal(Ray, Particle, Interval, bool exit)   at one end of the interval; unit
+//
+// and for the tiles of the compute expansion (TILES), where one particle is tested against many pixels:
+//
+//   struct TileTest { vec4 a, b, c; }                what the test needs, formed once a particle and tile
+//   TileTest tile_test(Particle, bool alive)         not alive: no ray meets it
+//   bool tile_nearer(TileTest, float x, float y, inout float key)   does the entry at the ray (x, y, 1) lie before
+//                                                    the key (depth times |ray|^2)? then the key is replaced
+#ifndef MOTE_INTERFACE_GLSL
+#define MOTE_INTERFACE_GLSL
+
+#include "common/frame.glsl"
+#include "common/exact.glsl"
+#include "common/color.glsl"
+
+// Places a chunk of one instance: view = linear * relative + origin. The origin was formed in double.
+struct Placement {
+  mat3 linear;
+  vec3 origin;
+  float scale; // of lengths; linear is a similarity
+};
+
+// A rectangle in tangents x/z, y/z (orthographic: in x, y), and the least visible z of the particle.
+struct Proxy {
+  vec2 lo, hi;
+  float z_min;
+};
+Proxy empty_proxy() { return Proxy(vec2(1e30), vec2(-1e30), 1.0); }
+
+// Where a ray runs inside a solid, as view depths, and what the type wants to remember for the normal.
+struct Interval {
+  float t_in, t_out;
+  vec4 local;
+};
+
+#include "type.glsl"
+
+#endif

@@ -1,0 +1,179 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Casts one tile: 8x8 pixels against the particles filed under it, nearest wins, then shades what won.
+//
+// A workgroup is one subgroup of LANES invocations (LANES is at most the device's smallest subgroup); each owns
+// 64 / LANES pixels in registers. LANES particles are loaded at a time, one an invocation, and broadcast one by one.
+// Entries come roughly front to back; a batch that lies behind all pixels is passed over. Everything is unrolled by
+// macros on local arrays: a CPU device keeps them in registers only if every index is a constant. Particles are handed
+// round by shuffles with a constant lane, which are one instruction there; broadcasts search for an active lane.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "particles/interface.glsl"
+#include "common/shading.glsl"
+#include "particles/tiles/work.glsl"
+
+layout(local_size_x = LANES) in;
+const int pixels = 64 / LANES; // of one invocation
+
+layout(constant_id = 10) const uint aovs = 0u;           // bits: 1 depth, 2 id, 4 normal
+layout(constant_id = 12) const bool first_round = false; // nothing was cast before in this frame
+layout(constant_id = 13) const bool one_material = true; // of all batches: StepBlock.material
+layout(constant_id = 14) const uint color_words = 2u;    // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float
+layout(constant_id = 15) const bool want_depth = false;  // the encoded depth, for passes that draw after this one
+
+layout(std430, set = 1, binding = 0) readonly buffer Materials { vec4 materials[]; };
+layout(std430, set = 1, binding = 1) readonly buffer Payloads { PAIR payloads[]; };
+layout(std430, set = 1, binding = 2) readonly buffer Colors { PAIR placed_colors[]; };
+layout(std430, set = 1, binding = 3) readonly buffer Ids { uint placed_ids[]; };
+layout(std430, set = 1, binding = 4) readonly buffer Nearest { float z_mins[]; };
+layout(std430, set = 1, binding = 5) readonly buffer Tiles { uint tiles[]; };
+layout(std430, set = 1, binding = 6) buffer Far { float far[]; };
+layout(std430, set = 1, binding = 7) readonly buffer Active { uint active_tiles[]; };
+layout(std430, set = 1, binding = 8) readonly buffer Entries { uint entries[]; };
+layout(std430, set = 1, binding = 9) buffer Keys { float nearest[]; };       // per pixel: view depth times |ray|^2
+layout(std430, set = 1, binding = 10) writeonly buffer OutColor { uint out_color[]; };       // rgba8unorm
+layout(std430, set = 1, binding = 11) writeonly buffer OutEncoded { float out_encoded[]; };
+layout(std430, set = 1, binding = 12) writeonly buffer OutDepth { float out_depth[]; };
+layout(std430, set = 1, binding = 13) writeonly buffer OutId { uint out_id[]; };
+layout(std430, set = 1, binding = 14) writeonly buffer OutNormal { vec4 out_normal[]; };
+layout(std430, set = 1, binding = 15) writeonly buffer OutColorPairs { PAIR out_color_pairs[]; }; // the wider formats
+
+const float infinitely_far = 3e38;
+
+uint lane() { return gl_LocalInvocationID.x; }
+// Pixel k of this invocation, within the tile.
+uvec2 pixel_of(int k) {
+#if LANES >= 8
+  return uvec2(lane() & 7u, (lane() >> 3) + uint(k * (LANES / 8)));
+#else
+  return uvec2(lane() + uint(LANES * (k & (8 / LANES - 1))), uint(k / (8 / LANES)));
+#endif
+}
+
+#if LANES == 4
+#define FOR_LANES(M) M(0) M(1) M(2) M(3)
+#define FOR_PIXELS(M) M(0) M(1) M(2) M(3) M(4) M(5) M(6) M(7) M(8) M(9) M(10) M(11) M(12) M(13) M(14) M(15)
+#elif LANES == 8
+#define FOR_LANES(M) M(0) M(1) M(2) M(3) M(4) M(5) M(6) M(7)
+#define FOR_PIXELS(M) M(0) M(1) M(2) M(3) M(4) M(5) M(6) M(7)
+#elif LANES == 16
+#define FOR_LANES(M) M(0) M(1) M(2) M(3) M(4) M(5) M(6) M(7) M(8) M(9) M(10) M(11) M(12) M(13) M(14) M(15)
+#define FOR_PIXELS(M) M(0) M(1) M(2) M(3)
+#elif LANES == 32
+#define FOR_8(M, b) M(b) M(b + 1) M(b + 2) M(b + 3) M(b + 4) M(b + 5) M(b + 6) M(b + 7)
+#define FOR_LANES(M) FOR_8(M, 0) FOR_8(M, 8) FOR_8(M, 16) FOR_8(M, 24)
+#define FOR_PIXELS(M) M(0) M(1)
+#endif
+
+// Against one particle of the batch.
+#define TEST_PIXEL(k) if (tile_nearer(test, ray_x[k], ray_y[k], key[k])) won[k] = who;
+#define TEST_LANE(l) { \
+  TileTest test = TileTest(subgroupShuffle(mine.a, uint(l)), subgroupShuffle(mine.b, uint(l)), subgroupShuffle(mine.c, uint(l))); \
+  uint who = subgroupShuffle(entry, uint(l)); \
+  FOR_PIXELS(TEST_PIXEL) }
+
+#define FARTHEST(k) farthest = max(farthest, key[k]);
+// Where no pixel of the tile is open: the farthest depth, from keys (depth times |ray|^2) and the tile's least |ray|^2.
+float farthest_depth(float farthest_key, float least_ray2) {
+  float farthest = subgroupMax(farthest_key);
+  return farthest >= infinitely_far ? uintBitsToFloat(0x7F800000u) : farthest / least_ray2 * (1.0 + 2e-6);
+}
+
+void write_color(uint at, vec3 color) {
+  if (color_words == 1u) {
+    out_color[at] = packUnorm4x8(vec4(color, 1.0));
+  } else if (color_words == 2u) {
+    out_color_pairs[at] = pair(uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0))));
+  } else {
+    out_color_pairs[2u * at] = pair(floatBitsToUint(color.rg));
+    out_color_pairs[2u * at + 1u] = pair(floatBitsToUint(vec2(color.b, 1.0)));
+  }
+}
+
+Particle load_particle(uint at) {
+  vec4 payload[payload_vec4s];
+  for (int i = 0; i < payload_vec4s; ++i) {
+    uint from = 2u * (at * uint(payload_vec4s) + uint(i));
+    payload[i] = uintBitsToFloat(uvec4(words(payloads[from]), words(payloads[from + 1u])));
+  }
+  return unpack(payload);
+}
+
+// The exact surface at one pixel, shaded; written where this round changed the pixel.
+void resolve(uvec2 pixel, float pixel_key, uint winner) {
+  bool changed = winner != no_particle;
+  uint who = changed ? winner : 0u, at = pixel.y * step.width + pixel.x;
+  Particle particle = load_particle(who);
+  uvec2 packed_color = words(placed_colors[who]);
+  vec3 own = vec3(unpackHalf2x16(packed_color.x), unpackHalf2x16(packed_color.y).x);
+  Ray ray = pixel_ray(vec2(pixel));
+  Interval hit;
+  intersect(ray, particle, hit);
+  vec3 normal = outward_normal(ray, particle, hit, false);
+  vec4 material = step.material;
+  if (!one_material) material = materials[packed_color.y >> 16];
+  vec3 color;
+  if (head_light_only)
+    color = own * (material.x * frame.ambient.rgb + (material.y * max(-normal.z, 0.0)) * frame.lights[0].strength.rgb);
+  else
+    color = shade(Surface(ray.origin + hit.t_in * ray.direction, normal, -normalize(ray.direction)), own, material);
+  if (!changed) return;
+  nearest[at] = pixel_key;
+  write_color(at, color);
+  if (want_depth) out_encoded[at] = encode_depth(hit.t_in);
+  if ((aovs & 1u) != 0u) out_depth[at] = hit.t_in;
+  if ((aovs & 2u) != 0u) out_id[at] = placed_ids[who];
+  if ((aovs & 4u) != 0u)
+    out_normal[at] = vec4(normal.x * frame.world_from_view0.xyz + normal.y * frame.world_from_view1.xyz + normal.z * frame.world_from_view2.xyz, 0.0);
+}
+
+void main() {
+  uint tile = active_tiles[gl_WorkGroupID.x];
+  uint count = tiles[4u * tile + 2u], at = tiles[4u * tile + 1u] - count, end = at + count;
+  uvec2 base = uvec2(tile % step.tiles_x, tile / step.tiles_x) * uint(tile_size);
+
+  // Rays to visibility's precision: a ten-thousandth of a pixel. resolve() forms the exact ones.
+  vec2 offset = vec2(base) + frame.sample_near_far.xy;
+  float inverse_focal = frame.viewport.w + frame.depth_near.y;
+  float key[pixels];
+  uint won[pixels];
+  float ray_x[pixels], ray_y[pixels];
+#define START(k) { \
+  uvec2 p = pixel_of(k); \
+  ray_x[k] = (offset.x + float(p.x)) * inverse_focal; \
+  ray_y[k] = (offset.y + float(p.y)) * inverse_focal; \
+  bool inside = base.x + p.x < step.width && base.y + p.y < step.height; \
+  uint pixel = (base.y + p.y) * step.width + base.x + p.x; \
+  key[k] = !inside ? -1.0 : infinitely_far; \
+  if (!first_round) { if (inside) key[k] = nearest[pixel]; } \
+  won[k] = no_particle; }
+  FOR_PIXELS(START)
+  vec2 least = max(max(offset, -(offset + float(tile_size - 1))), vec2(0.0)) * inverse_focal;
+  float least_ray2 = orthographic ? 1.0 : 1.0 + dot(least, least);
+  float hidden_from = first_round ? uintBitsToFloat(0x7F800000u) : far[tile];
+
+  do {
+    // The next LANES entries of which at least one may be seen.
+    uint entry;
+    bool alive;
+    do {
+      uint mine_at = at + lane();
+      entry = entries[min(mine_at, end - 1u)];
+      alive = mine_at < end && z_mins[entry] < hidden_from;
+      at += uint(LANES);
+    } while (at < end && !subgroupAny(alive));
+    TileTest mine = tile_test(load_particle(entry), alive);
+    FOR_LANES(TEST_LANE)
+    float farthest = 0.0;
+    FOR_PIXELS(FARTHEST)
+    hidden_from = farthest_depth(farthest, least_ray2);
+  } while (at < end);
+
+  if (subgroupElect()) far[tile] = hidden_from;
+#define RESOLVE(k) resolve(base + pixel_of(k), key[k], won[k]);
+  FOR_PIXELS(RESOLVE)
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Expansion `compute`: what its kernels share. Mirrors passes/particles/tiles/tile_blocks.hpp.
+//
+// A frame is a few *steps*. A step takes some of the placed chunks (cull), and in *rounds* whose memory is bounded
+// by construction brings their particles into view space and counts them over tiles of 8x8 pixels (place), reserves
+// room for each tile (allocate), files the particles under their tiles (scatter) and casts each tile (cast). Between
+// steps the farthest depth of every tile, and of blocks of tiles, hides what lies behind (far).
+#ifndef MOTE_TILES_WORK_GLSL
+#define MOTE_TILES_WORK_GLSL
+
+// Two words in one access: a CPU device walks through its lanes for every access to a buffer, whatever its width.
+#ifdef INT64
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#define PAIR uint64_t
+uvec2 words(PAIR pair) { return unpackUint2x32(pair); }
+PAIR pair(uvec2 w) { return packUint2x32(w); }
+#else
+#define PAIR uvec2
+uvec2 words(PAIR pair) { return pair; }
+PAIR pair(uvec2 w) { return w; }
+#endif
+
+const uint chunk_capacity = 64u;
+const int tile_size = 8;
+
+layout(push_constant) uniform StepBlock {
+  uint first, count;        // placed chunks of this step
+  uint others;              // 0: the chunks that were seen in the last frame; 1: the rest, tested against the depth so far
+  uint region;              // of this step's arguments, in uints: one cursor, then a block for each round
+  uint round;
+  uint slice, slices;       // buffers of records
+  uint capacity;            // entries that are reserved for one round at most
+  uint list_capacity;       // chunks of one round and slice at most
+  uint tiles_x, tiles_y;
+  uint level1, level2, level3; // where the coarser levels start in `far`; level 0 starts at 0
+  uint width, height;       // pixels
+  vec4 material;            // of all batches, with one_material
+} step;
+
+// Words of a placed chunk, a chunk of one instance that the view may see:
+//   0..2 origin in view space, formed in double; 3 z_min, nothing of it is nearer; 4, 5 the tiles it may cover, lo and hi
+//   (corner() of each; bits 24..31: tiles that one of its particles may cover in x, y); 6 its index in its slice; 7 its draw
+const uint chunk_words = 8u;
+// Words of a draw, one for each (batch, instance, slice):
+//   0..2 linear0, 3 scale, 4..6 linear1, 8..10 linear2, 12..15 color, 16 id_base, 17 first_flag, 18 slice, 19 colored,
+//   20 material
+const uint draw_words = 24u;
+
+// A corner of a rectangle of tiles: x in bits 0..11, y in 12..23.
+uvec2 corner(uint packed_xy) { return uvec2(packed_xy & 0xFFFu, (packed_xy >> 12) & 0xFFFu); }
+uint pack_corner(uvec2 tile) { return tile.x | tile.y << 12; }
+
+// Where the arguments of a round start: (x, 1, 1, 0) for each slice's place and scatter, for allocate, for cast.
+uint round_arguments(uint round) { return step.region + 4u + round * 4u * (step.slices + 2u); }
+uint slice_arguments(uint round, uint slice) { return round_arguments(round) + 4u * slice; }
+uint allocate_arguments(uint round) { return round_arguments(round) + 4u * step.slices; }
+uint cast_arguments(uint round) { return round_arguments(round) + 4u * (step.slices + 1u); } // its 4th: entries so far
+
+uint list_at(uint round, uint slice) { return (round * step.slices + slice) * step.list_capacity; }
+
+const uint no_particle = 0xFFFFFFFFu;
+
+#endif
