@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace mote::passes {
 namespace {
@@ -30,7 +31,7 @@ public:
   void declare(std::vector<rg::Slot>& slots, rg::Params& params) override {
     slots.push_back({.name = "color", .access = rg::Access::Sampled, .summary = "scene-linear color in the working space"});
     slots.push_back({.name = "color", .access = rg::Access::ColorWrite, .summary = "display color",
-                     .makes = rg::TextureSpec{.format = gpu::TextureFormat::RGBA8Unorm}, .covers = true});
+                     .makes = rg::TextureSpec{.format = gpu::TextureFormat::RGBA8Unorm}, .covers = true, .copied_into = true});
     request_.display = params.string("display", "", "display of the color config; empty: its default");
     request_.view = params.string("view", "", "view transform of the display; empty: its default");
     request_.exposure = params.number("exposure", 0.0, {.min = -30, .max = 30}, "stops");
@@ -57,30 +58,69 @@ public:
     gpu::RenderPass& pass = context.render_pass();
     pass.set_pipeline(pipeline_);
     pass.set_bind_group(0, group_);
-    if (lut_group_) pass.set_bind_group(1, lut_group_);
+    if (tables_.group) pass.set_bind_group(1, tables_.group);
     pass.draw(3);
   }
 
-private:
-  void make_pipeline(rg::PassContext& context) {
-    const DisplaySettings& settings = context.frame().get<DisplaySettings>();
+  const rg::PixelMap* pixel_map(rg::PassContext& context) override {
+    if (!map_.glsl.empty()) return &map_;
+    make_transform(context);
     gpu::Device device = context.device();
+    const DisplayGlsl glsl = transform_->glsl({.function = "map_pixel", .set = rg::PixelMap::set, .first_binding = 0});
+    tables_for_map_ = upload_tables(device, glsl, gpu::ShaderStage::Compute);
+    map_.layout = tables_for_map_.layout;
+    map_.group = tables_for_map_.group;
+    map_.id = glsl.cache_id;
+    map_.glsl = glsl.text;
+    map_.apply = [transform = *transform_](gpu::Color c) {
+      std::array<float, 4> v{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)};
+      transform.apply_baked(v);
+      return gpu::Color{v[0], v[1], v[2], v[3]};
+    };
+    return &map_;
+  }
+
+private:
+  // The tables of a transform on the device; empty for a transform that has none.
+  struct Tables {
+    gpu::BindGroupLayout layout{};
+    gpu::BindGroup group{};
+    std::vector<gpu::Texture> textures{};
+    std::vector<gpu::Sampler> samplers{};
+  };
+
+  void make_transform(rg::PassContext& context) {
+    if (transform_) return;
+    const DisplaySettings& settings = context.frame().get<DisplaySettings>();
     DisplayRequest request = request_;
     if (request.display.empty()) request.display = settings.display;
     if (request.view.empty()) request.view = settings.view;
     request.exposure += settings.exposure;
     request.exact = request.exact || settings.exact;
-    const DisplayTransform transform = make_display_transform(*settings.config, request);
-    const DisplayGlsl glsl = transform.glsl({.set = 1, .first_binding = 0});
-    make_layouts(device, glsl);
-    if (settings.describe) settings.describe(transform.describe());
+    transform_ = make_display_transform(*settings.config, request);
+    if (settings.describe) settings.describe(transform_->describe());
+  }
+
+  void make_pipeline(rg::PassContext& context) {
+    make_transform(context);
+    gpu::Device device = context.device();
+    const DisplayGlsl glsl = transform_->glsl({.set = 1, .first_binding = 0});
+    const std::array scene_entries{gpu::BindGroupLayoutEntry{.binding = 0,
+                                                             .visibility = gpu::ShaderStage::Fragment,
+                                                             .type = gpu::BindingType::SampledTexture,
+                                                             .sample_type = gpu::SampleType::UnfilterableFloat}};
+    scene_layout_ = device.create_bind_group_layout({.label = "display.scene", .entries = scene_entries});
+    tables_ = upload_tables(device, glsl, gpu::ShaderStage::Fragment);
+    std::vector<const gpu::BindGroupLayout*> layouts{&scene_layout_};
+    if (tables_.layout) layouts.push_back(&tables_.layout);
+    const gpu::PipelineLayout layout = device.create_pipeline_layout({.label = "display", .bind_group_layouts = layouts});
 
     const gpu::ShaderModule vertex = device.create_shader_module({.label = "post/fullscreen.vert", .spirv = shaders::spirv("post/fullscreen.vert")});
-    const auto words = compile_shader("post/display.frag", {{"display_transform.glsl", glsl.text}}, settings.cache_directory);
+    const auto words = compile_shader("post/display.frag", {{"display_transform.glsl", glsl.text}}, context.frame().get<DisplaySettings>().cache_directory);
     const gpu::ShaderModule fragment = device.create_shader_module({.label = "post/display.frag", .spirv = words});
     const std::array targets{gpu::ColorTargetState{.format = target_}};
     gpu::RenderPipelineDescriptor descriptor{.label = "display"};
-    descriptor.layout = &layout_;
+    descriptor.layout = &layout;
     descriptor.vertex = {.module = &vertex};
     descriptor.fragment = gpu::ProgrammableStage{.module = &fragment};
     descriptor.targets = targets;
@@ -88,53 +128,42 @@ private:
     group_ = {};
   }
 
-  void make_layouts(gpu::Device& device, const DisplayGlsl& glsl) {
-    const std::array scene_entries{gpu::BindGroupLayoutEntry{.binding = 0,
-                                                             .visibility = gpu::ShaderStage::Fragment,
-                                                             .type = gpu::BindingType::SampledTexture,
-                                                             .sample_type = gpu::SampleType::UnfilterableFloat}};
-    scene_layout_ = device.create_bind_group_layout({.label = "display.scene", .entries = scene_entries});
-    lut_group_ = {};
-    textures_.clear();
-    samplers_.clear();
+  static Tables upload_tables(gpu::Device& device, const DisplayGlsl& glsl, gpu::ShaderStage stage) {
+    Tables tables;
     std::vector<gpu::TextureView> views;
     std::vector<gpu::BindGroupLayoutEntry> layout_entries;
     for (const DisplayLut& lut : glsl.luts) {
-      textures_.push_back(upload_lut(device, lut));
-      views.push_back(textures_.back().create_view());
+      tables.textures.push_back(upload_lut(device, lut));
+      views.push_back(tables.textures.back().create_view());
       const gpu::FilterMode filter = lut.linear ? gpu::FilterMode::Linear : gpu::FilterMode::Nearest;
-      samplers_.push_back(device.create_sampler({.label = lut.name, .mag_filter = filter, .min_filter = filter}));
+      tables.samplers.push_back(device.create_sampler({.label = lut.name, .mag_filter = filter, .min_filter = filter}));
       layout_entries.push_back({.binding = lut.texture_binding,
-                                .visibility = gpu::ShaderStage::Fragment,
+                                .visibility = stage,
                                 .type = gpu::BindingType::SampledTexture,
                                 .sample_type = lut.linear ? gpu::SampleType::Float : gpu::SampleType::UnfilterableFloat,
                                 .view_dimension = lut.volume ? gpu::TextureViewDimension::D3 : gpu::TextureViewDimension::D2});
-      layout_entries.push_back({.binding = lut.sampler_binding, .visibility = gpu::ShaderStage::Fragment, .type = gpu::BindingType::Sampler});
+      layout_entries.push_back({.binding = lut.sampler_binding, .visibility = stage, .type = gpu::BindingType::Sampler});
     }
-    std::vector<const gpu::BindGroupLayout*> layouts{&scene_layout_};
-    gpu::BindGroupLayout lut_layout;
-    if (!layout_entries.empty()) {
-      lut_layout = device.create_bind_group_layout({.label = "display.luts", .entries = layout_entries});
-      layouts.push_back(&lut_layout);
-      std::vector<gpu::BindGroupEntry> entries;
-      for (std::size_t i = 0; i < views.size(); ++i) {
-        entries.push_back({.binding = glsl.luts[i].texture_binding, .texture = &views[i]});
-        entries.push_back({.binding = glsl.luts[i].sampler_binding, .sampler = &samplers_[i]});
-      }
-      lut_group_ = device.create_bind_group({.label = "display.luts", .layout = &lut_layout, .entries = entries});
+    if (layout_entries.empty()) return tables;
+    tables.layout = device.create_bind_group_layout({.label = "display.luts", .entries = layout_entries});
+    std::vector<gpu::BindGroupEntry> entries;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      entries.push_back({.binding = glsl.luts[i].texture_binding, .texture = &views[i]});
+      entries.push_back({.binding = glsl.luts[i].sampler_binding, .sampler = &tables.samplers[i]});
     }
-    layout_ = device.create_pipeline_layout({.label = "display", .bind_group_layouts = layouts});
+    tables.group = device.create_bind_group({.label = "display.luts", .layout = &tables.layout, .entries = entries});
+    return tables;
   }
 
   DisplayRequest request_;
   gpu::TextureFormat target_{};
+  std::optional<DisplayTransform> transform_;
   gpu::BindGroupLayout scene_layout_;
-  gpu::PipelineLayout layout_;
   gpu::RenderPipeline pipeline_;
-  gpu::BindGroup group_, lut_group_;
+  gpu::BindGroup group_;
   std::uint64_t generation_{};
-  std::vector<gpu::Texture> textures_;
-  std::vector<gpu::Sampler> samplers_;
+  Tables tables_, tables_for_map_;
+  rg::PixelMap map_;
 };
 
 } // namespace

@@ -95,12 +95,20 @@ private:
     ParticlePipelineKey key = key_for(scene, view, scene.batches.front());
     key.aovs = aovs_;
     const bool draw_on = !tiled_.rest.draws.empty();
-    const TileTargets targets{.color = context.whole_texture("color"),
+    TileTargets targets{.color = context.whole_texture("color"),
                               .encoded_depth = draw_on || context.kept("depth") ? context.whole_texture("depth") : gpu::Texture(),
                               .depth = context.whole_texture("aov_depth"),
                               .id = context.whole_texture("aov_id"),
                               .normal = context.whole_texture("aov_normal"),
                               .background = clear_value("color", context.frame())};
+    const auto next = draw_on ? std::nullopt : context.successor("color");
+    if (next && TileRenderer::works(context.device(), next->target.format())) {
+      const DisplaySettings* display = context.frame().find<DisplaySettings>();
+      targets.map = next->map;
+      targets.color = next->target;
+      targets.cache_directory = display ? display->cache_directory : std::string();
+      context.take_over("color");
+    }
     tiles_->record(context.encoder(), tiled_, frame_group_, key, targets, [&](std::string_view stage) { context.mark(stage); });
     return true;
   }

@@ -35,7 +35,7 @@ gpu::ShaderStage stage_of(const std::string& path) {
 } // namespace
 
 std::vector<std::uint32_t> compile_shader(const std::string& path, const std::vector<std::pair<std::string, std::string>>& made,
-                                          const std::string& cache_directory) {
+                                          const std::string& cache_directory, std::span<const gpu::ShaderDefine> defines) {
   const auto include = [&](const std::string& name, const std::string&) -> std::optional<gpu::GlslSource> {
     for (const auto& [made_name, text] : made)
       if (made_name == name) return gpu::GlslSource{name, text};
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> compile_shader(const std::string& path, const std::ve
   };
   const auto text = shader_text(path);
   if (!text) throw std::logic_error("no shipped shader '" + path + "'");
-  gpu::CompiledShader compiled = gpu::SpirvCache(cache_directory).compile(stage_of(path), {path, *text}, {}, include);
+  gpu::CompiledShader compiled = gpu::SpirvCache(cache_directory).compile(stage_of(path), {path, *text}, defines, include);
   if (compiled) return std::move(compiled.spirv);
 
   std::vector<std::string> lines;

@@ -4,7 +4,10 @@
 // the embedded shaders, or from the folder that MOTE_SHADERS names (for work on shaders).
 #pragma once
 
+#include "core/gpu/shader_compiler.hpp"
+
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +17,6 @@ namespace mote::passes {
 // `made` are texts that #include finds by name before any file. Results are kept in
 // `cache_directory` (none if empty). Throws Failure (P002) with the compiler's messages.
 std::vector<std::uint32_t> compile_shader(const std::string& path, const std::vector<std::pair<std::string, std::string>>& made,
-                                          const std::string& cache_directory);
+                                          const std::string& cache_directory, std::span<const gpu::ShaderDefine> defines = {});
 
 } // namespace mote::passes

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "render_graph/executor.hpp"
 
+#include "render_graph/successors.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,6 +52,19 @@ public:
 
   [[nodiscard]] gpu::RenderPass begin_attachments(bool loaded) override { return executor_.open(pass_, frame(), encoder(), loaded); }
   void mark(std::string_view stage) override { executor_.profiler_.mark(encoder(), stage); }
+  [[nodiscard]] std::optional<Successor> successor(std::string_view slot) override {
+    const auto use = successor_use(executor_.plan_, pass_, slot);
+    if (!use || !executor_.choice_.skipped[pass_ + 1].empty()) return std::nullopt;
+    Context& next = *executor_.contexts_[pass_ + 1];
+    next.set(&frame(), &encoder(), nullptr);
+    const PixelMap* map = executor_.passes_[pass_ + 1]->pixel_map(next);
+    next.set(nullptr, nullptr, nullptr);
+    if (!map) return std::nullopt;
+    return Successor{map, executor_.resources_.texture(next.at(*use).resource)};
+  }
+  void take_over(std::string_view slot) override {
+    if (successor_use(executor_.plan_, pass_, slot)) executor_.taken_over_[pass_ + 1] = planned_.name;
+  }
   [[nodiscard]] bool kept(std::string_view slot) const override {
     const auto use = find(slot, true);
     return use && at(*use).store == gpu::StoreOp::Store;
@@ -140,12 +155,14 @@ gpu::Submission Executor::execute(const FrameInput& frame, ViewSize view, const 
   prepare(frame, view);
   if (options.camera_cut) resources_.reset_state();
   choose(frame);
+  taken_over_.assign(passes_.size(), {});
   profiler_.begin_frame();
   gpu::CommandEncoder encoder = device_.create_command_encoder(plan_.name);
   resources_.zero_fresh_state(encoder);
   for (std::size_t i = 0; i < passes_.size(); ++i) {
-    if (choice_.skipped[i].empty()) record_pass(i, frame, encoder);
-    else profiler_.skip_pass(i, choice_.skipped[i]);
+    const std::string why = !taken_over_[i].empty() ? fmt::format("'{}' did its work", taken_over_[i]) : choice_.skipped[i];
+    if (why.empty()) record_pass(i, frame, encoder);
+    else profiler_.skip_pass(i, why);
     record_copies(i, encoder);
   }
   profiler_.end_frame(encoder);

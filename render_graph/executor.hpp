@@ -70,6 +70,7 @@ private:
   Profiler profiler_;
   std::vector<std::unique_ptr<Context>> contexts_{};
   FrameChoice choice_{};
+  std::vector<std::string> taken_over_{}; // by pass: which one did its work in this frame; empty: none
   bool prepared_{};
 };
 

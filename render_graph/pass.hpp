@@ -17,6 +17,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -45,6 +46,23 @@ private:
 };
 
 struct ViewSize { std::uint32_t width{}, height{}; bool operator==(const ViewSize&) const = default; };
+
+// What a pass does that maps each pixel of one texture to the same pixel of another and nothing else (a display
+// transform): the pass that makes the first texture may apply it at once, and then neither the texture nor the pass is
+// needed in that frame.
+struct PixelMap {
+  static constexpr std::uint32_t set = 2; // of its bindings
+  std::string glsl{};                     // declares vec4 map_pixel(vec4) and those bindings, for a compute stage
+  std::string id{};                       // changes with the text and the tables
+  gpu::BindGroupLayout layout{};          // invalid: no bindings
+  gpu::BindGroup group{};
+  std::function<gpu::Color(gpu::Color)> apply{}; // the same on the CPU
+};
+// The pass that reads an output, if it is a pixel map and nothing else needs that output.
+struct Successor {
+  const PixelMap* map{};
+  gpu::Texture target{}; // what the successor would write; it may be copied to
+};
 
 // What the executor gives to prepare(): formats of attachments in slot order, and views of resources.
 // A slot that is optional and unconnected (or culled) has no texture.
@@ -77,6 +95,10 @@ public:
   [[nodiscard]] virtual gpu::RenderPass begin_attachments(bool loaded) = 0;
   // Ends a stage of the pass for whoever asked for stage times; encoder() must be free. Cheap otherwise.
   virtual void mark(std::string_view stage) = 0;
+  // While recording, for passes that open their attachments: see Successor. Whoever writes the target instead of its
+  // output calls take_over(), which leaves the successor out of this frame.
+  [[nodiscard]] virtual std::optional<Successor> successor(std::string_view slot) = 0;
+  virtual void take_over(std::string_view slot) = 0;
   // Does anything read this output after the pass?
   [[nodiscard]] virtual bool kept(std::string_view slot) const = 0;
 };
@@ -92,6 +114,9 @@ public:
   // Uploads and other work outside the RenderPass (drawing passes only): called just before it opens.
   virtual void update(PassContext& context) { (void)context; }
   virtual void record(PassContext& context) = 0;
+  // For passes that are a pixel map from their one input to their one output; valid until the next call. Called while
+  // recording, with frame() there.
+  virtual const PixelMap* pixel_map(PassContext& context) { (void)context; return nullptr; }
   // True: the pass begins its RenderPasses itself, on encoder() (one per layer or mip of an attachment, say).
   [[nodiscard]] virtual bool opens_attachments() const { return false; }
   // Reason why this frame needs nothing from the pass ("no light casts shadows"), or empty. Pure: reads only

@@ -13,10 +13,10 @@ constexpr std::uint32_t tile_size = 8; // pixels
 // Push constants of every kernel.
 struct StepBlock {
   std::uint32_t first{}, count{}, others{}, region{}, round{}, slice{}, slices{}, capacity{}, list_capacity{};
-  std::uint32_t tiles_x{}, tiles_y{}, level1{}, level2{}, level3{}, width{}, height{};
+  std::uint32_t tiles_x{}, tiles_y{}, level1{}, level2{}, level3{}, width{}, height{}, tile_room{}, stamp{}, unused[2]{};
   glm::vec4 material{};
 };
-static_assert(sizeof(StepBlock) == 80);
+static_assert(sizeof(StepBlock) == 96);
 
 // A corner of a rectangle of tiles: x in bits 0..11, y in 12..23; and tiles of one particle above them.
 inline std::uint32_t pack_corner(glm::uvec2 tile, std::uint32_t most) { return tile.x | tile.y << 12 | (most < 255 ? most : 255u) << 24; }

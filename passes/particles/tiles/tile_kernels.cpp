@@ -2,6 +2,7 @@
 #include "passes/particles/tiles/tile_kernels.hpp"
 
 #include "passes/particles/tiles/tile_blocks.hpp"
+#include "passes/runtime_shaders.hpp"
 #include "shaders/embedded.hpp"
 
 #include <fmt/format.h>
@@ -24,11 +25,11 @@ gpu::BindGroupLayout layout_of(gpu::Device& device, std::string_view label, std:
 constexpr Type in = Type::ReadOnlyStorageBuffer, io = Type::StorageBuffer;
 constexpr std::array slice_types{in, in, in};
 constexpr std::array binning_types{in, in, io, io, io, io, io, io, io, io, io, io, io, io}; // binning.glsl
-constexpr std::array cast_types{in, in, in, in, in, in, io, in, in, io, io, io, io, io, io, io}; // cast.comp
+constexpr std::array cast_types{in, in, in, in, io, io, in, in, io, io, io, io, io, io, io}; // cast.comp
 
 } // namespace
 
-TileKernels::TileKernels(gpu::Device device, const gpu::BindGroupLayout& frame) : device_(std::move(device)), words_(gpu::has(device_.features(), gpu::Feature::ShaderInt64) ? "int64" : "int32") {
+TileKernels::TileKernels(gpu::Device device, const gpu::BindGroupLayout& frame) : device_(std::move(device)), words_(gpu::has(device_.features(), gpu::Feature::ShaderInt64) ? "int64" : "int32"), frame_(frame) {
   slice_ = layout_of(device_, "tiles.slice", slice_types);
   binning_ = layout_of(device_, "tiles.binning", binning_types);
   cast_ = layout_of(device_, "tiles.cast", cast_types);
@@ -45,8 +46,9 @@ std::uint32_t TileKernels::lanes(const gpu::Device& device) {
   return 0;
 }
 
-gpu::ComputePipeline TileKernels::make(const std::string& shader, const gpu::PipelineLayout& layout, std::span<const gpu::SpecializationConstant> constants) {
-  const auto words = shaders::spirv(shader);
+gpu::ComputePipeline TileKernels::make(const std::string& shader, const gpu::PipelineLayout& layout, std::span<const gpu::SpecializationConstant> constants,
+                                       std::span<const std::uint32_t> words) {
+  if (words.empty()) words = shaders::spirv(shader);
   if (words.empty()) throw std::logic_error("no shipped shader '" + shader + "'");
   const gpu::ShaderModule module = device_.create_shader_module({.label = shader, .spirv = words});
   return device_.create_compute_pipeline({.label = shader, .layout = &layout, .compute = {.module = &module, .constants = constants}});
@@ -66,14 +68,24 @@ const gpu::ComputePipeline& TileKernels::place(const ParticlePipelineKey& key, b
   return places_.emplace(std::pair(key, first_round), make(shader, binning_pipelines_, constants)).first->second;
 }
 
-const gpu::ComputePipeline& TileKernels::cast(const CastKey& key) {
+const gpu::ComputePipeline& TileKernels::cast(const CastKey& key, const rg::PixelMap* map, const std::string& cache_directory) {
   if (auto it = casts_.find(key); it != casts_.end()) return it->second;
   const ParticlePipelineKey& d = key.drawing;
   const std::array constants{gpu::spec(0, d.orthographic), gpu::spec(1, d.light_count), gpu::spec(2, d.local_lights), gpu::spec(3, d.specular_model),
                              gpu::spec(6, d.head_light_only), gpu::spec(10, d.aovs), gpu::spec(12, key.first_round),
                              gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth)};
   const std::string shader = fmt::format("{}/tiles/cast/{}/{}", d.type, lanes(device_), words_);
-  return casts_.emplace(key, make(shader, cast_pipelines_, constants)).first->second;
+  if (!map) return casts_.emplace(key, make(shader, cast_pipelines_, constants)).first->second;
+
+  const std::string lane_text = std::to_string(lanes(device_));
+  const std::array<gpu::ShaderDefine, 4> defines{{{"TILES", "1"}, {"LANES", lane_text}, {words_ == "int64" ? "INT64" : "INT32", "1"}, {"PIXEL_MAP", "1"}}};
+  const auto words = compile_shader("particles/tiles/cast.comp",
+                                    {{"type.glsl", std::string(shaders::text(fmt::format("particles/{}/type.glsl", d.type)))}, {"pixel_map.glsl", map->glsl}},
+                                    cache_directory, defines);
+  std::vector<const gpu::BindGroupLayout*> sets{&frame_, &cast_};
+  if (map->layout) sets.push_back(&map->layout);
+  const gpu::PipelineLayout layout = device_.create_pipeline_layout({.label = "tiles.cast.map", .bind_group_layouts = sets, .push_constant_size = sizeof(StepBlock)});
+  return casts_.emplace(key, make(shader, layout, constants, words)).first->second;
 }
 
 } // namespace mote::passes

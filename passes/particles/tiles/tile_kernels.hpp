@@ -7,6 +7,7 @@
 
 #include "core/gpu/gpu.hpp"
 #include "passes/particles/pipelines.hpp"
+#include "render_graph/pass.hpp"
 
 #include <compare>
 #include <map>
@@ -19,6 +20,7 @@ struct CastKey {
   ParticlePipelineKey drawing{}; // type, aovs, projection, lights, model, colors; the rest of it is not looked at
   bool first_round{}, one_material{}, want_depth{};
   std::uint32_t color_words{2};  // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float
+  std::string pixel_map{};       // id of the map that is applied to the color; empty: none
   auto operator<=>(const CastKey&) const = default;
 };
 
@@ -31,17 +33,19 @@ public:
 
   [[nodiscard]] const gpu::ComputePipeline& kernel(const std::string& name); // "cull", "allocate", "scatter", "far"
   [[nodiscard]] const gpu::ComputePipeline& place(const ParticlePipelineKey& key, bool first_round);
-  [[nodiscard]] const gpu::ComputePipeline& cast(const CastKey& key);
+  // `map`: the one that key.pixel_map names, or null. Its shader is compiled now (P002) or comes from the cache.
+  [[nodiscard]] const gpu::ComputePipeline& cast(const CastKey& key, const rg::PixelMap* map, const std::string& cache_directory);
   [[nodiscard]] const gpu::BindGroupLayout& slice_layout() const { return slice_; }
   [[nodiscard]] const gpu::BindGroupLayout& binning_layout() const { return binning_; }
   [[nodiscard]] const gpu::BindGroupLayout& cast_layout() const { return cast_; }
 
 private:
-  gpu::ComputePipeline make(const std::string& shader, const gpu::PipelineLayout& layout, std::span<const gpu::SpecializationConstant> constants);
+  gpu::ComputePipeline make(const std::string& shader, const gpu::PipelineLayout& layout, std::span<const gpu::SpecializationConstant> constants,
+                            std::span<const std::uint32_t> words = {});
 
   gpu::Device device_;
   std::string words_; // "int64": buffers are read two words at a time, which needs the feature; else "int32"
-  gpu::BindGroupLayout slice_, binning_, cast_;
+  gpu::BindGroupLayout frame_, slice_, binning_, cast_;
   gpu::PipelineLayout binning_pipelines_, cast_pipelines_;
   std::map<std::string, gpu::ComputePipeline> kernels_;
   std::map<std::pair<ParticlePipelineKey, bool>, gpu::ComputePipeline> places_;

@@ -11,6 +11,7 @@ namespace mote::passes {
 namespace {
 
 constexpr std::uint32_t small_scene = 2048;             // chunks: below it the others are one step
+constexpr std::uint64_t least_room = 16, most_room = 128; // entries of a tile's own places: 33 MiB at 1920x1080 at most
 constexpr std::uint64_t most_reserved = 1u << 30;       // of a step: the kernels count in 32 bits
 constexpr std::array<std::uint32_t, 4> shares{16, 8, 4, 2}; // the nearest 1/16 of the chunks, then up to 1/8, 1/4, 1/2, all
 
@@ -83,6 +84,8 @@ TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std:
   plan.capacity = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(reserved, 4 * chunk_capacity, most_capacity));
   plan.most_entries = plan.capacity + static_cast<std::uint32_t>(largest);
   plan.list_capacity = plan.capacity / (4 * chunk_capacity) + 1;
+  const std::uint64_t average = plan.capacity / plan.level1 + 1;
+  plan.tile_room = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(std::bit_ceil(4 * average), least_room, most_room));
 
   const auto count = static_cast<std::uint32_t>(chunks.size());
   add_steps(plan, chunks, 0, count, false);

@@ -13,8 +13,7 @@ namespace mote::passes {
 namespace {
 
 using Usage = gpu::BufferUsage;
-constexpr std::uint32_t most_capacity = 1u << 22;     // entries of a round: 16 MiB of them, 52 MiB of placed particles
-constexpr float infinitely_far = 3e38f;               // as in cast.comp
+constexpr std::uint32_t most_capacity = 1u << 21;     // entries of a round: 32 MiB of them, 20 MiB of placed particles
 constexpr std::uint32_t infinity_bits = 0x7F800000u;
 constexpr std::uint32_t workgroup = 64;               // of all kernels but cast
 
@@ -27,8 +26,8 @@ std::uint32_t words_of(gpu::TextureFormat format) {
   }
 }
 
-// Uints of a step's arguments: a cursor, then (x, y, z, total) for each slice, for allocate and for cast, each round.
-std::uint32_t region_size(std::uint32_t rounds, std::size_t slices) { return 4u + rounds * 4u * (static_cast<std::uint32_t>(slices) + 2u); }
+// Uints of a step's arguments: a cursor, then (x, y, z, total) for each slice, for allocate, cast and scatter, each round.
+std::uint32_t region_size(std::uint32_t rounds, std::size_t slices) { return 4u + rounds * 4u * (static_cast<std::uint32_t>(slices) + 3u); }
 
 std::vector<std::uint32_t> background_words(gpu::Color c, std::uint32_t words) {
   const glm::vec4 v(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a));
@@ -56,7 +55,7 @@ void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t he
   plan_ = plan_tiles(view.chunks, width, height, most_capacity);
   block_ = {.slices = static_cast<std::uint32_t>(view.slices.size()), .capacity = plan_.capacity, .list_capacity = plan_.list_capacity,
             .tiles_x = plan_.tiles_x, .tiles_y = plan_.tiles_y, .level1 = plan_.level1, .level2 = plan_.level2, .level3 = plan_.level3,
-            .width = width, .height = height, .material = view.materials.empty() ? glm::vec4(0) : view.materials.front()};
+            .width = width, .height = height, .tile_room = plan_.tile_room, .stamp = block_.stamp + 1, .material = view.materials.empty() ? glm::vec4(0) : view.materials.front()};
   if (view.chunks.empty()) return;
 
   regions_.clear();
@@ -89,12 +88,12 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.payloads, "tiles.payloads", places * payload, storage);
   reserve(b.colors, "tiles.colors", places * 8, storage);
   reserve(b.ids, "tiles.ids", targets.id ? places * 4 : 0, storage);
-  reserve(b.rects, "tiles.rects", places * 8, storage);
+  reserve(b.spilled, "tiles.spilled", plan_.most_entries * 8ull, storage);
   reserve(b.z_mins, "tiles.z_mins", places * 4, storage);
-  reserve(b.tiles, "tiles.tiles", plan_.level1 * 16ull, storage);
+  tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 16ull, storage) || tiles_fresh_;
   reserve(b.far, "tiles.far", plan_.cells * 4ull, storage);
   reserve(b.active, "tiles.active", plan_.level1 * 4ull, storage);
-  reserve(b.entries, "tiles.entries", plan_.most_entries * 4ull, storage);
+  reserve(b.entries, "tiles.entries", (std::uint64_t{plan_.level1} * plan_.tile_room + plan_.most_entries) * 8, storage);
   reserve(b.nearest, "tiles.nearest", pixels * 4, storage);
   reserve(b.color, "tiles.color", pixels * color_words_ * 4, storage);
   reserve(b.unused_color, "tiles.unused_color", 0, storage);
@@ -115,10 +114,10 @@ void TileRenderer::make_groups(const TiledView& view) {
     slice_groups_.push_back(group("tiles.slice", kernels_.slice_layout(), {&slice.records, &slice.rows, &slice.colors}));
   const Buffers& b = buffers_;
   binning_group_ = group("tiles.binning", kernels_.binning_layout(),
-                         {&b.chunks, &b.draws, &b.flags, &b.lists, &b.arguments, &b.payloads, &b.colors, &b.ids, &b.rects, &b.tiles, &b.far, &b.active, &b.entries, &b.z_mins});
+                         {&b.chunks, &b.draws, &b.flags, &b.lists, &b.arguments, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.spilled, &b.z_mins});
   const bool narrow = color_words_ == 1;
   cast_group_ = group("tiles.cast", kernels_.cast_layout(),
-                      {&b.materials, &b.payloads, &b.colors, &b.ids, &b.z_mins, &b.tiles, &b.far, &b.active, &b.entries, &b.nearest,
+                      {&b.materials, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.nearest,
                        narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color});
 }
 
@@ -126,35 +125,34 @@ void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& target
   Buffers& b = buffers_;
   const std::uint32_t pixels = block_.width * block_.height;
   encoder.copy_buffer_to_buffer(b.argument_template, 0, b.arguments, 0, arguments_.size() * 4);
-  encoder.clear_buffer(b.tiles);
+  if (tiles_fresh_) encoder.clear_buffer(b.tiles);
+  tiles_fresh_ = false;
   encoder.clear_buffer(b.far, 0, 0, infinity_bits);
-  encoder.clear_buffer(b.nearest, 0, 0, std::bit_cast<std::uint32_t>(infinitely_far));
   if (flags_fresh_) encoder.clear_buffer(b.flags);
   if (targets.encoded_depth) encoder.clear_buffer(b.encoded);
   if (targets.depth) encoder.clear_buffer(b.depth, 0, 0, infinity_bits);
   if (targets.id) encoder.clear_buffer(b.id, 0, 0, 0xFFFFFFFFu);
   if (targets.normal) encoder.clear_buffer(b.normal);
 
-  const std::vector<std::uint32_t> words = background_words(targets.background, color_words_);
+  const gpu::Color background = targets.map ? targets.map->apply(targets.background) : targets.background;
+  const std::vector<std::uint32_t> words = background_words(background, color_words_);
   if (std::all_of(words.begin(), words.end(), [&](std::uint32_t w) { return w == words.front(); })) {
     encoder.clear_buffer(b.color, 0, 0, words.front());
     return;
   }
   // A pattern that a fill cannot make is made once and copied.
-  const bool same = background_pixels_ == pixels && background_.r == targets.background.r && background_.g == targets.background.g &&
-                    background_.b == targets.background.b && background_.a == targets.background.a;
-  if (!same) {
+  if (background_words_ != words || !b.background || b.background.size() < std::uint64_t{pixels} * color_words_ * 4) {
     std::vector<std::uint32_t> image(std::size_t{pixels} * color_words_);
     for (std::size_t i = 0; i < image.size(); ++i) image[i] = words[i % words.size()];
     reserve(b.background, "tiles.background", image.size() * 4, Usage::CopyDst | Usage::CopySrc);
     device_.queue().write_buffer(b.background, 0, std::as_bytes(std::span(image)));
-    background_ = targets.background;
-    background_pixels_ = pixels;
+    background_words_ = words;
   }
   encoder.copy_buffer_to_buffer(b.background, 0, b.color, 0, std::uint64_t{pixels} * color_words_ * 4);
 }
 
-void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, const TiledView& view, const gpu::BindGroup& frame_group, const CastKey& key, const Mark& mark) {
+void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, const TiledView& view, const gpu::BindGroup& frame_group, const CastKey& key,
+                               const TileTargets& targets, const Mark& mark) {
   const TileStep& step = plan_.steps[index];
   const auto slices = static_cast<std::uint32_t>(view.slices.size());
   StepBlock block = block_;
@@ -170,7 +168,7 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
     pass.set_bind_group(2, binning_group_);
     pass.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
   };
-  auto offset = [&](std::uint32_t round, std::uint32_t slot) { return (block.region + 4u + (round * (slices + 2u) + slot) * 4u) * 4ull; };
+  auto offset = [&](std::uint32_t round, std::uint32_t slot) { return (block.region + 4u + (round * (slices + 3u) + slot) * 4u) * 4ull; };
 
   gpu::ComputePass cull = encoder.begin_compute_pass({.label = "tiles.cull"});
   begin(cull, kernels_.kernel("cull"));
@@ -190,21 +188,19 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
     place.dispatch_indirect(buffers_.indirect, offset(round, slices));
     place.end();
     mark("place");
-    encoder.copy_buffer_to_buffer(buffers_.arguments, offset(round, slices + 1), buffers_.indirect, offset(round, slices + 1), 16);
+    encoder.copy_buffer_to_buffer(buffers_.arguments, offset(round, slices + 1), buffers_.indirect, offset(round, slices + 1), 32);
     gpu::ComputePass cast = encoder.begin_compute_pass({.label = "tiles.cast"});
-    for (block.slice = 0; block.slice < slices; ++block.slice) {
-      begin(cast, kernels_.kernel("scatter"));
-      cast.dispatch_indirect(buffers_.indirect, offset(round, block.slice));
-    }
+    begin(cast, kernels_.kernel("scatter"));
+    cast.dispatch_indirect(buffers_.indirect, offset(round, slices + 2));
     cast.end();
     mark("scatter");
     cast = encoder.begin_compute_pass({.label = "tiles.cast"});
-    block.slice = 0;
     CastKey variant = key;
     variant.first_round = key.first_round && round == 0;
-    cast.set_pipeline(kernels_.cast(variant));
+    cast.set_pipeline(kernels_.cast(variant, targets.map, targets.cache_directory));
     cast.set_bind_group(0, frame_group);
     cast.set_bind_group(1, cast_group_);
+    if (targets.map && targets.map->group) cast.set_bind_group(rg::PixelMap::set, targets.map->group);
     cast.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
     cast.dispatch_indirect(buffers_.indirect, offset(round, slices + 1));
     cast.end();
@@ -233,14 +229,15 @@ void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& tar
 void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& drawing,
                           const TileTargets& targets, const Mark& mark) {
   color_words_ = words_of(targets.color.format());
-  CastKey key{.drawing = drawing, .first_round = true, .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth), .color_words = color_words_};
+  CastKey key{.drawing = drawing, .first_round = true, .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth), .color_words = color_words_,
+              .pixel_map = targets.map ? targets.map->id : std::string()};
   reserve_frame(drawing, targets);
   make_groups(view);
   clear(encoder, targets);
   mark("clear");
   for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
     if (flags_fresh_ && !plan_.steps[i].others) continue; // nothing was seen before
-    record_step(encoder, i, view, frame_group, key, mark);
+    record_step(encoder, i, view, frame_group, key, targets, mark);
     key.first_round = false;
   }
   copy_out(encoder, targets);

@@ -21,7 +21,9 @@ namespace mote::passes {
 // Where pictures go: textures that may be copied to; an invalid one is left out. All of the view's size.
 struct TileTargets {
   gpu::Texture color{}, encoded_depth{}, depth{}, id{}, normal{};
-  gpu::Color background{};
+  gpu::Color background{};         // scene-linear
+  const rg::PixelMap* map{};       // applied to colors and background; `color` is then what the map's pass would write
+  std::string cache_directory{};   // of SPIR-V; empty: none
 };
 
 class TileRenderer {
@@ -40,14 +42,15 @@ public:
 
 private:
   struct Buffers {
-    gpu::Buffer chunks{}, draws{}, materials{}, flags{}, lists{}, arguments{}, argument_template{}, indirect{}, payloads{}, colors{}, ids{}, rects{}, z_mins{}, tiles{},
+    gpu::Buffer chunks{}, draws{}, materials{}, flags{}, lists{}, arguments{}, argument_template{}, indirect{}, payloads{}, colors{}, ids{}, spilled{}, z_mins{}, tiles{},
         far{}, active{}, entries{}, nearest{}, color{}, unused_color{}, background{}, encoded{}, depth{}, id{}, normal{};
   };
   bool reserve(gpu::Buffer& buffer, std::string_view label, std::uint64_t bytes, gpu::BufferUsage usage);
   void reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets);
   void make_groups(const TiledView& view);
   void clear(gpu::CommandEncoder& encoder, const TileTargets& targets);
-  void record_step(gpu::CommandEncoder& encoder, std::size_t index, const TiledView& view, const gpu::BindGroup& frame_group, const CastKey& key, const Mark& mark);
+  void record_step(gpu::CommandEncoder& encoder, std::size_t index, const TiledView& view, const gpu::BindGroup& frame_group, const CastKey& key,
+                   const TileTargets& targets, const Mark& mark);
   void copy_out(gpu::CommandEncoder& encoder, const TileTargets& targets);
 
   gpu::Device device_;
@@ -59,9 +62,9 @@ private:
   StepBlock block_{};
   std::vector<gpu::BindGroup> slice_groups_{};
   gpu::BindGroup binning_group_{}, cast_group_{};
-  gpu::Color background_{};
-  std::uint32_t background_pixels_{}, color_words_{2};
-  bool flags_fresh_{};
+  std::vector<std::uint32_t> background_words_{};
+  std::uint32_t color_words_{2};
+  bool flags_fresh_{}, tiles_fresh_{true};
 };
 
 } // namespace mote::passes

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Reserves room for each tile's entries, one tile's after another's in any order, and lists the tiles that have some.
+// Lists the tiles that have entries, and makes room for the entries that did not fit in a tile's own places.
 #extension GL_GOOGLE_include_directive : require
 #include "particles/tiles/binning.glsl"
 
@@ -9,11 +9,14 @@ layout(local_size_x = 64) in;
 void main() {
   uint t = gl_GlobalInvocationID.x;
   if (t >= step.tiles_x * step.tiles_y) return;
+  uint list = scatter_arguments(step.round);
+  if (t == 0u) arguments[list] = (arguments[list + 3u] + 63u) / 64u;
   uint count = tiles[4u * t];
   if (count == 0u) return;
-  uint totals = cast_arguments(step.round);
-  tiles[4u * t + 1u] = atomicAdd(arguments[totals + 3u], count);
+  uint own = step.tiles_x * step.tiles_y * step.tile_room;
+  uint rest = count - min(count, step.tile_room);
+  tiles[4u * t + 1u] = own + atomicAdd(arguments[allocate_arguments(step.round) + 3u], rest);
   tiles[4u * t + 2u] = count;
   tiles[4u * t] = 0u;
-  active_tiles[atomicAdd(arguments[totals], 1u)] = t;
+  active_tiles[atomicAdd(arguments[cast_arguments(step.round)], 1u)] = t;
 }

@@ -16,6 +16,13 @@
 #include "common/shading.glsl"
 #include "particles/tiles/work.glsl"
 
+#ifdef PIXEL_MAP
+#extension GL_EXT_samplerless_texture_functions : require
+#include "pixel_map.glsl" // made at run time: vec4 map_pixel(vec4), the display transform that would come next
+#else
+vec4 map_pixel(vec4 color) { return color; }
+#endif
+
 layout(local_size_x = LANES) in;
 const int pixels = 64 / LANES; // of one invocation
 
@@ -29,18 +36,17 @@ layout(std430, set = 1, binding = 0) readonly buffer Materials { vec4 materials[
 layout(std430, set = 1, binding = 1) readonly buffer Payloads { PAIR payloads[]; };
 layout(std430, set = 1, binding = 2) readonly buffer Colors { PAIR placed_colors[]; };
 layout(std430, set = 1, binding = 3) readonly buffer Ids { uint placed_ids[]; };
-layout(std430, set = 1, binding = 4) readonly buffer Nearest { float z_mins[]; };
-layout(std430, set = 1, binding = 5) readonly buffer Tiles { uint tiles[]; };
-layout(std430, set = 1, binding = 6) buffer Far { float far[]; };
-layout(std430, set = 1, binding = 7) readonly buffer Active { uint active_tiles[]; };
-layout(std430, set = 1, binding = 8) readonly buffer Entries { uint entries[]; };
-layout(std430, set = 1, binding = 9) buffer Keys { float nearest[]; };       // per pixel: view depth times |ray|^2
-layout(std430, set = 1, binding = 10) writeonly buffer OutColor { uint out_color[]; };       // rgba8unorm
-layout(std430, set = 1, binding = 11) writeonly buffer OutEncoded { float out_encoded[]; };
-layout(std430, set = 1, binding = 12) writeonly buffer OutDepth { float out_depth[]; };
-layout(std430, set = 1, binding = 13) writeonly buffer OutId { uint out_id[]; };
-layout(std430, set = 1, binding = 14) writeonly buffer OutNormal { vec4 out_normal[]; };
-layout(std430, set = 1, binding = 15) writeonly buffer OutColorPairs { PAIR out_color_pairs[]; }; // the wider formats
+layout(std430, set = 1, binding = 4) buffer Tiles { uint tiles[]; };
+layout(std430, set = 1, binding = 5) buffer Far { float far[]; };
+layout(std430, set = 1, binding = 6) readonly buffer Active { uint active_tiles[]; };
+layout(std430, set = 1, binding = 7) readonly buffer Entries { PAIR entries[]; };
+layout(std430, set = 1, binding = 8) buffer Keys { float nearest[]; };       // per pixel: view depth times |ray|^2
+layout(std430, set = 1, binding = 9) writeonly buffer OutColor { uint out_color[]; };       // rgba8unorm
+layout(std430, set = 1, binding = 10) writeonly buffer OutEncoded { float out_encoded[]; };
+layout(std430, set = 1, binding = 11) writeonly buffer OutDepth { float out_depth[]; };
+layout(std430, set = 1, binding = 12) writeonly buffer OutId { uint out_id[]; };
+layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { vec4 out_normal[]; };
+layout(std430, set = 1, binding = 14) writeonly buffer OutColorPairs { PAIR out_color_pairs[]; }; // the wider formats
 
 const float infinitely_far = 3e38;
 
@@ -83,14 +89,15 @@ float farthest_depth(float farthest_key, float least_ray2) {
   return farthest >= infinitely_far ? uintBitsToFloat(0x7F800000u) : farthest / least_ray2 * (1.0 + 2e-6);
 }
 
-void write_color(uint at, vec3 color) {
+void write_color(uint at, vec3 linear) {
+  vec4 color = map_pixel(vec4(linear, 1.0));
   if (color_words == 1u) {
-    out_color[at] = packUnorm4x8(vec4(color, 1.0));
+    out_color[at] = packUnorm4x8(color);
   } else if (color_words == 2u) {
-    out_color_pairs[at] = pair(uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0))));
+    out_color_pairs[at] = pair(uvec2(packHalf2x16(color.rg), packHalf2x16(color.ba)));
   } else {
     out_color_pairs[2u * at] = pair(floatBitsToUint(color.rg));
-    out_color_pairs[2u * at + 1u] = pair(floatBitsToUint(vec2(color.b, 1.0)));
+    out_color_pairs[2u * at + 1u] = pair(floatBitsToUint(color.ba));
   }
 }
 
@@ -133,7 +140,9 @@ void resolve(uvec2 pixel, float pixel_key, uint winner) {
 
 void main() {
   uint tile = active_tiles[gl_WorkGroupID.x];
-  uint count = tiles[4u * tile + 2u], at = tiles[4u * tile + 1u] - count, end = at + count;
+  uint cursor = tiles[4u * tile + 1u], end = tiles[4u * tile + 2u], at = 0u;
+  uint own = tile * step.tile_room, spilled = cursor - (end - min(end, step.tile_room)) - step.tile_room; // entry k is there + k
+  bool untouched = first_round || tiles[4u * tile + 3u] != step.stamp;
   uvec2 base = uvec2(tile % step.tiles_x, tile / step.tiles_x) * uint(tile_size);
 
   // Rays to visibility's precision: a ten-thousandth of a pixel. resolve() forms the exact ones.
@@ -149,21 +158,22 @@ void main() {
   bool inside = base.x + p.x < step.width && base.y + p.y < step.height; \
   uint pixel = (base.y + p.y) * step.width + base.x + p.x; \
   key[k] = !inside ? -1.0 : infinitely_far; \
-  if (!first_round) { if (inside) key[k] = nearest[pixel]; } \
+  if (!first_round) { if (inside && !untouched) key[k] = nearest[pixel]; } \
   won[k] = no_particle; }
   FOR_PIXELS(START)
   vec2 least = max(max(offset, -(offset + float(tile_size - 1))), vec2(0.0)) * inverse_focal;
   float least_ray2 = orthographic ? 1.0 : 1.0 + dot(least, least);
-  float hidden_from = first_round ? uintBitsToFloat(0x7F800000u) : far[tile];
+  float hidden_from = untouched ? uintBitsToFloat(0x7F800000u) : far[tile];
 
   do {
     // The next LANES entries of which at least one may be seen.
     uint entry;
     bool alive;
     do {
-      uint mine_at = at + lane();
-      entry = entries[min(mine_at, end - 1u)];
-      alive = mine_at < end && z_mins[entry] < hidden_from;
+      uint mine_at = min(at + lane(), end - 1u);
+      uvec2 filed = words(entries[(mine_at < step.tile_room ? own : spilled) + mine_at]);
+      entry = filed.x;
+      alive = at + lane() < end && uintBitsToFloat(filed.y) < hidden_from;
       at += uint(LANES);
     } while (at < end && !subgroupAny(alive));
     TileTest mine = tile_test(load_particle(entry), alive);
@@ -173,7 +183,10 @@ void main() {
     hidden_from = farthest_depth(farthest, least_ray2);
   } while (at < end);
 
-  if (subgroupElect()) far[tile] = hidden_from;
+  if (subgroupElect()) {
+    far[tile] = hidden_from;
+    tiles[4u * tile + 3u] = step.stamp;
+  }
 #define RESOLVE(k) resolve(base + pixel_of(k), key[k], won[k]);
   FOR_PIXELS(RESOLVE)
 }

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Brings the particles of a round's chunks into view space and counts them over the tiles they may cover.
+// Brings the particles of a round's chunks into view space and files them under the tiles they may cover.
 // One workgroup a chunk, one invocation a particle.
 // What is the same for all of them is loaded word by word, one word a lane, and handed round.
 #extension GL_GOOGLE_include_directive : require
@@ -89,11 +89,14 @@ void main() {
   uvec2 lo = max(rect.xy, rect_lo), hi = min(rect.zw, rect_hi);
   bool some = drawable(particle) && rect.x <= rect.z && lo.x <= hi.x && lo.y <= hi.y;
   if (some && !first_round) some = bounds.z_min < farthest(lo, hi, level_of(max(hi.x - lo.x, hi.y - lo.y) + 1u));
-  rects[at] = pair(some ? uvec2(pack_corner(lo), pack_corner(hi)) : uvec2(1u, 0u));
   if (!some) return;
+  PAIR entry = pair(uvec2(at, floatBitsToUint(bounds.z_min)));
   uvec2 tile = lo;
   do {
-    atomicAdd(tiles[4u * (tile.y * step.tiles_x + tile.x)], 1u);
+    uint t = tile.y * step.tiles_x + tile.x;
+    uint k = atomicAdd(tiles[4u * t], 1u);
+    if (k < step.tile_room) entries[t * step.tile_room + k] = entry;
+    else spilled[atomicAdd(arguments[scatter_arguments(step.round) + 3u], 1u)] = pair(uvec2(t, at));
     bool wrap = tile.x == hi.x;
     tile = wrap ? uvec2(lo.x, tile.y + 1u) : uvec2(tile.x + 1u, tile.y);
   } while (tile.y <= hi.y);

@@ -2,9 +2,10 @@
 // Expansion `compute`: what its kernels share. Mirrors passes/particles/tiles/tile_blocks.hpp.
 //
 // A frame is a few *steps*. A step takes some of the placed chunks (cull), and in *rounds* whose memory is bounded
-// by construction brings their particles into view space and counts them over tiles of 8x8 pixels (place), reserves
-// room for each tile (allocate), files the particles under their tiles (scatter) and casts each tile (cast). Between
-// steps the farthest depth of every tile, and of blocks of tiles, hides what lies behind (far).
+// by construction brings their particles into view space and files them under tiles of 8x8 pixels (place). A tile has
+// `tile_room` places of its own; what does not fit goes to a list, for which room is made (allocate) and which is filed in
+// a second go (scatter). Then each tile is cast (cast). Between steps the farthest depth of every tile, and of blocks of
+// tiles, hides what lies behind (far).
 #ifndef MOTE_TILES_WORK_GLSL
 #define MOTE_TILES_WORK_GLSL
 
@@ -29,11 +30,14 @@ layout(push_constant) uniform StepBlock {
   uint region;              // of this step's arguments, in uints: one cursor, then a block for each round
   uint round;
   uint slice, slices;       // buffers of records
-  uint capacity;            // entries that are reserved for one round at most
+  uint capacity;            // entries that are reserved for one round, roughly
   uint list_capacity;       // chunks of one round and slice at most
   uint tiles_x, tiles_y;
   uint level1, level2, level3; // where the coarser levels start in `far`; level 0 starts at 0
   uint width, height;       // pixels
+  uint tile_room;           // entries that a tile holds by itself
+  uint stamp;               // of this frame: tiles that bear it were cast before
+  uint unused0, unused1;
   vec4 material;            // of all batches, with one_material
 } step;
 
@@ -50,11 +54,12 @@ const uint draw_words = 24u;
 uvec2 corner(uint packed_xy) { return uvec2(packed_xy & 0xFFFu, (packed_xy >> 12) & 0xFFFu); }
 uint pack_corner(uvec2 tile) { return tile.x | tile.y << 12; }
 
-// Where the arguments of a round start: (x, 1, 1, 0) for each slice's place and scatter, for allocate, for cast.
-uint round_arguments(uint round) { return step.region + 4u + round * 4u * (step.slices + 2u); }
+// Where the arguments of a round start: (x, 1, 1, 0) for each slice's place, for allocate, for cast, for scatter.
+uint round_arguments(uint round) { return step.region + 4u + round * 4u * (step.slices + 3u); }
 uint slice_arguments(uint round, uint slice) { return round_arguments(round) + 4u * slice; }
 uint allocate_arguments(uint round) { return round_arguments(round) + 4u * step.slices; }
-uint cast_arguments(uint round) { return round_arguments(round) + 4u * (step.slices + 1u); } // its 4th: entries so far
+uint cast_arguments(uint round) { return round_arguments(round) + 4u * (step.slices + 1u); }
+uint scatter_arguments(uint round) { return round_arguments(round) + 4u * (step.slices + 2u); } // its 4th: entries on the list
 
 uint list_at(uint round, uint slice) { return (round * step.slices + slice) * step.list_capacity; }
 
