@@ -43,6 +43,7 @@ struct ParticleStore::Impl {
   std::map<const ChunkSet*, Resident> residents;
   struct Placements {
     gpu::Buffer buffer{}, near_buffer{};
+    SliceBuffers near_slice{}; // of the compute expansion
     std::vector<PlacedChunk> chunks{};
     std::vector<NearPayload> payloads{};
     std::map<const Slice*, gpu::BindGroup> groups{};
@@ -214,8 +215,19 @@ TileDraw tile_draw(const Batch& batch, std::size_t instance, const View& view, s
   const auto known = std::find(materials.begin(), materials.end(), block.material);
   const auto material = static_cast<std::uint32_t>(known - materials.begin());
   if (known == materials.end()) materials.push_back(block.material);
-  return {.linear0_scale = block.linear0_scale, .linear1 = block.linear1, .linear2 = block.linear2, .color = block.color,
-          .id_base = block.id_base, .colored = !batch.chunks->colors.empty(), .material = material};
+  return {.linear0 = glm::vec3(block.linear0_scale), .scale = block.linear0_scale.w, .linear1 = glm::vec3(block.linear1), .id_base = block.id_base,
+          .linear2 = glm::vec3(block.linear2), .color = glm::vec3(block.color), .material = material & 0xFFFFu,
+          .colored = !batch.chunks->colors.empty()};
+}
+constexpr std::uint32_t near_slice = 0x7FFFu; // until its number is known
+// Particles of the same (batch, instance) that are in view space already.
+TileDraw near_draw(TileDraw draw) {
+  draw.linear0 = {1, 0, 0};
+  draw.linear1 = {0, 1, 0};
+  draw.linear2 = {0, 0, 1};
+  draw.scale = 1;
+  draw.slice = near_slice;
+  return draw;
 }
 } // namespace
 
@@ -234,6 +246,7 @@ void ParticleStore::place_tiles(const Scene& scene, const View& view, TiledView&
   PlacedForTiles chunks;
   chunks.tiled.swap(out.chunks);
   std::uint64_t total = 0;
+  std::size_t near_before = 0;
   for (const Batch& batch : scene.batches)
     for (std::size_t k = 0; k < batch.instances.size(); ++k)
       for (const Slice& slice : impl_->residents.at(batch.chunks.get()).slices) {
@@ -243,13 +256,29 @@ void ParticleStore::place_tiles(const Scene& scene, const View& view, TiledView&
         place_for_tiles(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler,
                         static_cast<std::uint32_t>(out.draws.size()), chunks);
         out.draws.push_back(tile_draw(batch, k, view, out.materials));
-        out.draws.back().slice = known->second;
+        out.draws.back().slice = known->second & 0x7FFFu;
         out.draws.back().first_flag = out.flags;
+        if (near_before < chunks.near.size()) out.draws.push_back(near_draw(out.draws.back()));
+        for (; near_before < chunks.near.size(); ++near_before) chunks.near[near_before].draw = static_cast<std::uint32_t>(out.draws.size() - 1);
         out.flags += static_cast<std::uint32_t>(slice.chunk_count);
         total += slice.chunk_count;
         placed.append(runs, batch, k, slice, chunks.rest);
       }
   out.chunks.swap(chunks.tiled);
+  if (!chunks.near.empty()) {
+    for (TileDraw& draw : out.draws)
+      if (draw.slice == near_slice) {
+        draw.slice = static_cast<std::uint32_t>(out.slices.size()) & 0x7FFFu;
+        draw.first_flag = out.flags;
+      }
+    out.chunks.insert(out.chunks.end(), chunks.near.begin(), chunks.near.end());
+    out.flags += static_cast<std::uint32_t>(chunks.near.size());
+    SliceBuffers& buffers = placed.near_slice;
+    impl_->write(buffers.records, "particles.near_records", bytes_of(std::span<const glm::vec4>(chunks.near_records)), placed);
+    impl_->write(buffers.rows, "particles.near_rows", bytes_of(std::span<const std::uint32_t>(chunks.near_rows)), placed);
+    impl_->write(buffers.colors, "particles.near_colors", bytes_of(std::span<const std::uint32_t>(chunks.near_colors)), placed);
+    out.slices.push_back(buffers);
+  }
   out.rest = impl_->finish(runs, view, placed);
   out.rest.chunks_total = total;
 }

@@ -67,8 +67,15 @@ bool ChunkPlacer::place(const Chunk& chunk, PlacedBox& out) const {
   out.center = out.origin + linear_ * center;
   if (!culler_.may_see(out.center, linear_, half)) return false;
   out.extent = reach_ * half;
-  out.near = distance_to_box(eye_, chunk.origin + center, half) < 2.0 * glm::length(half);
+  const double distance = distance_to_box(eye_, chunk.origin + center, half);
+  out.near = distance < 2.0 * glm::length(half);
+  out.distance = scale_ * distance;
   return true;
+}
+
+glm::vec4 ChunkPlacer::in_view(const ChunkSet& set, std::uint64_t record, const PlacedBox& box) const {
+  const glm::vec4 stored = set.records[record * set.vec4s_per_record];
+  return {glm::vec3(box.origin + linear_ * glm::dvec3(stored)), static_cast<float>(scale_ * double{stored.w})};
 }
 
 void ChunkPlacer::add(const ChunkSet& set, std::uint64_t chunk, std::uint64_t in_slice, const PlacedBox& box, PlacedChunks& out) const {

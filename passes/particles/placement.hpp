@@ -48,7 +48,8 @@ struct PlacedChunks {
 // Where the box of a chunk is in view space: the chunk's origin, the box's center and axis-aligned half extents.
 struct PlacedBox {
   glm::dvec3 origin{0}, center{0}, extent{0};
-  bool near{}; // to the eye: see PlacedChunks
+  double distance{}; // from the eye, world units; 0: inside
+  bool near{};       // to the eye: see PlacedChunks
 };
 
 // Places the chunks of one instance, one by one.
@@ -60,6 +61,8 @@ public:
   // Appends a placed chunk for the raster expansions; `in_slice` is its index for the shaders.
   void add(const ChunkSet& set, std::uint64_t chunk, std::uint64_t in_slice, const PlacedBox& box, PlacedChunks& out) const;
   [[nodiscard]] double scale() const { return scale_; } // of lengths
+  // A record's center in view space, formed in double and rounded once, and its radius.
+  [[nodiscard]] glm::vec4 in_view(const ChunkSet& set, std::uint64_t record, const PlacedBox& box) const;
 
 private:
   const ViewCuller& culler_;

@@ -39,13 +39,15 @@ struct Ray {
   vec3 direction; // z = 1: the ray parameter is the depth along the view axis
 };
 
-// The ray through a sample of the pixel whose integer position is floor(fragment.xy). Half-integers have few bits, so
-// the first product is exact and the direction is rounded once.
-Ray pixel_ray(vec2 fragment) {
-  vec2 pixel = floor(fragment) + frame.sample_near_far.xy;
-  precise vec2 p = pixel * frame.viewport.w + pixel * frame.depth_near.y;
+// The ray through a sample of the pixel whose integer position is floor(fragment). Half-integers have few bits, so
+// the first product is exact and the direction is rounded once. `offset`: sample offset - viewport / 2; `high` and `rest`:
+// the two parts of 1 / focal.
+Ray ray_through(vec2 fragment, vec2 offset, float high, float rest) {
+  vec2 pixel = floor(fragment) + offset;
+  precise vec2 p = pixel * high + pixel * rest;
   return orthographic ? Ray(vec3(p, 0.0), vec3(0.0, 0.0, 1.0)) : Ray(vec3(0.0), vec3(p, 1.0));
 }
+Ray pixel_ray(vec2 fragment) { return ray_through(fragment, frame.sample_near_far.xy, frame.viewport.w, frame.depth_near.y); }
 
 // Reverse-Z with infinite far: depth n / z, relative precision the same at every distance.
 float encode_depth(float z) { return min(frame.depth_near.x / z, 1.0); }

@@ -13,7 +13,7 @@ constexpr std::uint32_t tile_size = 8; // pixels
 // Push constants of every kernel.
 struct StepBlock {
   std::uint32_t first{}, count{}, others{}, region{}, round{}, slice{}, slices{}, capacity{}, list_capacity{};
-  std::uint32_t tiles_x{}, tiles_y{}, level1{}, level2{}, level3{}, width{}, height{}, tile_room{}, stamp{}, unused[2]{};
+  std::uint32_t tiles_x{}, tiles_y{}, level1{}, level2{}, level3{}, width{}, height{}, tile_room{}, stamp{}, spilled{}, unused{};
   glm::vec4 material{};
 };
 static_assert(sizeof(StepBlock) == 96);
@@ -33,9 +33,15 @@ static_assert(sizeof(TileChunk) == 32);
 
 // One for each (batch, instance, slice).
 struct TileDraw {
-  glm::vec4 linear0_scale{}, linear1{}, linear2{}, color{};
-  std::uint32_t id_base{}, first_flag{}, slice{}, colored{}, material{}, padding[3]{};
+  glm::vec3 linear0{};
+  float scale{};
+  glm::vec3 linear1{};
+  std::uint32_t id_base{};
+  glm::vec3 linear2{};
+  std::uint32_t first_flag{};
+  glm::vec3 color{};
+  std::uint32_t material : 16 {}, slice : 15 {}, colored : 1 {};
 };
-static_assert(sizeof(TileDraw) == 96);
+static_assert(sizeof(TileDraw) == 64);
 
 } // namespace mote::passes

@@ -24,7 +24,7 @@ gpu::BindGroupLayout layout_of(gpu::Device& device, std::string_view label, std:
 
 constexpr Type in = Type::ReadOnlyStorageBuffer, io = Type::StorageBuffer;
 constexpr std::array slice_types{in, in, in};
-constexpr std::array binning_types{in, in, io, io, io, io, io, io, io, io, io, io, io, io}; // binning.glsl
+constexpr std::array binning_types{in, in, io, io, io, io, io, io, io, io, io, io}; // binning.glsl
 constexpr std::array cast_types{in, in, in, in, io, io, in, in, io, io, io, io, io, io, io}; // cast.comp
 
 } // namespace
@@ -73,7 +73,7 @@ const gpu::ComputePipeline& TileKernels::cast(const CastKey& key, const rg::Pixe
   const ParticlePipelineKey& d = key.drawing;
   const std::array constants{gpu::spec(0, d.orthographic), gpu::spec(1, d.light_count), gpu::spec(2, d.local_lights), gpu::spec(3, d.specular_model),
                              gpu::spec(6, d.head_light_only), gpu::spec(10, d.aovs), gpu::spec(12, key.first_round),
-                             gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth)};
+                             gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth), gpu::spec(16, key.display_only)};
   const std::string shader = fmt::format("{}/tiles/cast/{}/{}", d.type, lanes(device_), words_);
   if (!map) return casts_.emplace(key, make(shader, cast_pipelines_, constants)).first->second;
 

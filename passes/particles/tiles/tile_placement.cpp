@@ -18,7 +18,7 @@ public:
   bool place(const PlacedBox& box, double radius, TileChunk& out, bool& any) const {
     const double slack = 1e-6 * glm::length(box.center);
     const double z_min = box.center.z - box.extent.z - slack, z_max = box.center.z + box.extent.z + slack;
-    if (box.near || z_min < least_z_ || (view_.far_cut > 0 && z_max > view_.far_cut)) return false;
+    if (z_min < least_z_ || (view_.far_cut > 0 && z_max > view_.far_cut)) return false;
     const glm::dvec2 lo = glm::dvec2(box.center - box.extent) - slack, hi = glm::dvec2(box.center + box.extent) + slack;
     glm::dvec2 first, last; // pixels
     for (int k = 0; k < 2; ++k) {
@@ -56,6 +56,17 @@ private:
   double least_z_;
 };
 
+void add_near(const ChunkSet& set, std::uint64_t chunk, const ChunkPlacer& placer, const PlacedBox& box, TileChunk tiled, PlacedForTiles& out) {
+  tiled.origin = glm::vec3(0);
+  tiled.chunk = static_cast<std::uint32_t>(out.near_records.size() / chunk_capacity);
+  out.near.push_back(tiled);
+  for (std::uint64_t record = chunk * chunk_capacity; record < (chunk + 1) * chunk_capacity; ++record) {
+    out.near_records.push_back(placer.in_view(set, record, box));
+    out.near_rows.push_back(set.rows[record]);
+    out.near_colors.push_back(set.colors.empty() ? 0u : set.colors[record]);
+  }
+}
+
 } // namespace
 
 void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance, const View& view,
@@ -68,8 +79,11 @@ void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t cou
   for (std::uint64_t i = 0; i < count; ++i) {
     if (!placer.place(set.chunks[first + i], box)) continue;
     bool any = false;
-    if (!rects.place(box, placer.scale() * double{set.chunks[first + i].max_radius}, tiled, any)) {
+    const double radius = placer.scale() * double{set.chunks[first + i].max_radius};
+    if (!rects.place(box, radius, tiled, any) || (box.near && box.distance < 2 * radius)) {
       placer.add(set, first + i, i, box, out.rest);
+    } else if (any && box.near) {
+      add_near(set, first + i, placer, box, tiled, out);
     } else if (any) {
       tiled.chunk = static_cast<std::uint32_t>(i);
       out.tiled.push_back(tiled);

@@ -2,8 +2,10 @@
 // Chunks as the compute expansion needs them: their origin in view space, their nearest depth and the tiles they may
 // cover. Pure; double precision, rounded outwards once.
 //
-// Tiles serve chunks that lie wholly behind the eye's and the near plane and not beyond the far cut, and so far from the
-// eye that float32 placement is exact enough; the others (few in any view) are given back, to be drawn by a raster expansion.
+// Tiles serve chunks that lie wholly behind the eye's and the near plane and not beyond the far cut. Of those near the eye,
+// where float32 placement would show in the depth, the particles are placed here one by one, in double. What is so near that
+// the intersection would need more than its plain form (nearer than the diameter of a particle) is given back with the rest,
+// to be drawn by a raster expansion; few chunks are.
 #pragma once
 
 #include "passes/particles/placement.hpp"
@@ -14,6 +16,10 @@ namespace mote::passes {
 struct PlacedForTiles {
   std::vector<TileChunk> tiled{};
   PlacedChunks rest{};
+  // Chunks placed particle by particle: TileChunk::chunk counts them from the first in near_records, origin is 0.
+  std::vector<TileChunk> near{};
+  std::vector<glm::vec4> near_records{}; // 64 a chunk: view space, radius
+  std::vector<std::uint32_t> near_rows{}, near_colors{};
 };
 
 // Appends those of the chunks [first, first + count) of an instance that the view may see. `draw` goes into TileChunk.

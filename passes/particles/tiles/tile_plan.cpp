@@ -57,7 +57,7 @@ void sort_by_depth(std::vector<TileChunk>& chunks, std::vector<TileChunk>& scrat
     least = std::min(least, key(chunk));
     most = std::max(most, key(chunk));
   }
-  constexpr int bucket_bits = 11;
+  constexpr int bucket_bits = 5; // coarse: within a bucket chunks stay neighbors, which caches like
   const int shift = std::max(0, static_cast<int>(std::bit_width(most - least)) - bucket_bits);
   std::vector<std::uint32_t> starts((1u << bucket_bits) + 2u);
   for (const TileChunk& chunk : chunks) ++starts[((key(chunk) - least) >> shift) + 1];
@@ -85,7 +85,7 @@ TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std:
   plan.most_entries = plan.capacity + static_cast<std::uint32_t>(largest);
   plan.list_capacity = plan.capacity / (4 * chunk_capacity) + 1;
   const std::uint64_t average = plan.capacity / plan.level1 + 1;
-  plan.tile_room = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(std::bit_ceil(4 * average), least_room, most_room));
+  plan.tile_room = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(std::bit_ceil(2 * average), least_room, most_room));
 
   const auto count = static_cast<std::uint32_t>(chunks.size());
   add_steps(plan, chunks, 0, count, false);

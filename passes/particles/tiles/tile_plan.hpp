@@ -37,7 +37,7 @@ struct TilePlan {
   [[nodiscard]] std::uint32_t most_rounds() const;
 };
 
-// Stable, by z_min in steps of 1/1024 or finer. `order` is scratch that is kept between frames.
+// Stable, by z_min in 32 steps: front to back, and within a step the order that chunks had. `order` is scratch that is kept between frames.
 void sort_by_depth(std::vector<TileChunk>& chunks, std::vector<TileChunk>& scratch);
 
 // `chunks` in depth order; `most_capacity`: entries that memory allows in a round.

@@ -55,7 +55,8 @@ void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t he
   plan_ = plan_tiles(view.chunks, width, height, most_capacity);
   block_ = {.slices = static_cast<std::uint32_t>(view.slices.size()), .capacity = plan_.capacity, .list_capacity = plan_.list_capacity,
             .tiles_x = plan_.tiles_x, .tiles_y = plan_.tiles_y, .level1 = plan_.level1, .level2 = plan_.level2, .level3 = plan_.level3,
-            .width = width, .height = height, .tile_room = plan_.tile_room, .stamp = block_.stamp + 1, .material = view.materials.empty() ? glm::vec4(0) : view.materials.front()};
+            .width = width, .height = height, .tile_room = plan_.tile_room, .stamp = block_.stamp + 1,
+            .spilled = plan_.level1 * plan_.tile_room + plan_.most_entries, .material = view.materials.empty() ? glm::vec4(0) : view.materials.front()};
   if (view.chunks.empty()) return;
 
   regions_.clear();
@@ -88,12 +89,10 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.payloads, "tiles.payloads", places * payload, storage);
   reserve(b.colors, "tiles.colors", places * 8, storage);
   reserve(b.ids, "tiles.ids", targets.id ? places * 4 : 0, storage);
-  reserve(b.spilled, "tiles.spilled", plan_.most_entries * 8ull, storage);
-  reserve(b.z_mins, "tiles.z_mins", places * 4, storage);
   tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 16ull, storage) || tiles_fresh_;
   reserve(b.far, "tiles.far", plan_.cells * 4ull, storage);
   reserve(b.active, "tiles.active", plan_.level1 * 4ull, storage);
-  reserve(b.entries, "tiles.entries", (std::uint64_t{plan_.level1} * plan_.tile_room + plan_.most_entries) * 8, storage);
+  reserve(b.entries, "tiles.entries", (std::uint64_t{plan_.level1} * plan_.tile_room + 2ull * plan_.most_entries) * 8, storage);
   reserve(b.nearest, "tiles.nearest", pixels * 4, storage);
   reserve(b.color, "tiles.color", pixels * color_words_ * 4, storage);
   reserve(b.unused_color, "tiles.unused_color", 0, storage);
@@ -114,7 +113,7 @@ void TileRenderer::make_groups(const TiledView& view) {
     slice_groups_.push_back(group("tiles.slice", kernels_.slice_layout(), {&slice.records, &slice.rows, &slice.colors}));
   const Buffers& b = buffers_;
   binning_group_ = group("tiles.binning", kernels_.binning_layout(),
-                         {&b.chunks, &b.draws, &b.flags, &b.lists, &b.arguments, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.spilled, &b.z_mins});
+                         {&b.chunks, &b.draws, &b.flags, &b.lists, &b.arguments, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries});
   const bool narrow = color_words_ == 1;
   cast_group_ = group("tiles.cast", kernels_.cast_layout(),
                       {&b.materials, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.nearest,
@@ -229,7 +228,8 @@ void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& tar
 void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& drawing,
                           const TileTargets& targets, const Mark& mark) {
   color_words_ = words_of(targets.color.format());
-  CastKey key{.drawing = drawing, .first_round = true, .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth), .color_words = color_words_,
+  CastKey key{.drawing = drawing, .first_round = true, .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
+              .display_only = color_words_ == 1 && drawing.aovs == 0 && !targets.encoded_depth, .color_words = color_words_,
               .pixel_map = targets.map ? targets.map->id : std::string()};
   reserve_frame(drawing, targets);
   make_groups(view);

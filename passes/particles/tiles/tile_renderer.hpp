@@ -42,7 +42,7 @@ public:
 
 private:
   struct Buffers {
-    gpu::Buffer chunks{}, draws{}, materials{}, flags{}, lists{}, arguments{}, argument_template{}, indirect{}, payloads{}, colors{}, ids{}, spilled{}, z_mins{}, tiles{},
+    gpu::Buffer chunks{}, draws{}, materials{}, flags{}, lists{}, arguments{}, argument_template{}, indirect{}, payloads{}, colors{}, ids{}, tiles{},
         far{}, active{}, entries{}, nearest{}, color{}, unused_color{}, background{}, encoded{}, depth{}, id{}, normal{};
   };
   bool reserve(gpu::Buffer& buffer, std::string_view label, std::uint64_t bytes, gpu::BufferUsage usage);

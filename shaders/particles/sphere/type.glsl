@@ -129,6 +129,8 @@ TileTest tile_test(Particle p, bool alive) {
                   vec4(2.0 * z2 * m.x * m.y, z * m, 0.0));
 }
 
+vec3 normal_at(Ray ray, Particle p, float t) { return (t * ray.direction + (ray.origin - p.center)) * (1.0 / p.radius); }
+
 bool tile_nearer(TileTest s, float x, float y, inout float key) {
   float ux = x - s.a.x, uy = y - s.a.y;
   float q = (s.a.z + ux * (s.b.x + ux * s.b.z)) + uy * ((s.b.y + ux * s.c.x) + uy * s.b.w);

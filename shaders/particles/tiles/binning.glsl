@@ -16,9 +16,8 @@ layout(std430, set = 2, binding = 7) buffer Ids { uint placed_ids[]; };
 layout(std430, set = 2, binding = 8) buffer Tiles { uint tiles[]; };        // per tile: count while placing, cursor in the list's part, number of entries, stamp
 layout(std430, set = 2, binding = 9) buffer Far { float far[]; };          // farthest depth of each tile, then of coarser cells
 layout(std430, set = 2, binding = 10) buffer Active { uint active_tiles[]; };
-layout(std430, set = 2, binding = 11) buffer Entries { PAIR entries[]; };   // place of a particle and bits of its z_min; tile_room a tile, then the list's part
-layout(std430, set = 2, binding = 12) buffer Spilled { PAIR spilled[]; };   // the list: tile and place of a particle
-layout(std430, set = 2, binding = 13) buffer Depths { float z_mins[]; };    // of the round's particles
+layout(std430, set = 2, binding = 11) buffer Entries { PAIR entries[]; };   // place of a particle and bits of its z_min: tile_room a tile, then those
+                                                                            // of the list in tile order; then the list: tile and place
 
 uint level_start(uint level) { return level == 0u ? 0u : level == 1u ? step.level1 : level == 2u ? step.level2 : step.level3; }
 

@@ -31,6 +31,7 @@ layout(constant_id = 12) const bool first_round = false; // nothing was cast bef
 layout(constant_id = 13) const bool one_material = true; // of all batches: StepBlock.material
 layout(constant_id = 14) const uint color_words = 2u;    // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float
 layout(constant_id = 15) const bool want_depth = false;  // the encoded depth, for passes that draw after this one
+layout(constant_id = 16) const bool display_only = false; // colors of 8 bits are all that is asked for: normals may err by 1e-4
 
 layout(std430, set = 1, binding = 0) readonly buffer Materials { vec4 materials[]; };
 layout(std430, set = 1, binding = 1) readonly buffer Payloads { PAIR payloads[]; };
@@ -92,7 +93,8 @@ float farthest_depth(float farthest_key, float least_ray2) {
 void write_color(uint at, vec3 linear) {
   vec4 color = map_pixel(vec4(linear, 1.0));
   if (color_words == 1u) {
-    out_color[at] = packUnorm4x8(color);
+    // The shuffle keeps the packing out of the store's loop over lanes.
+    out_color[at] = subgroupShuffle(packUnorm4x8(color), gl_SubgroupInvocationID);
   } else if (color_words == 2u) {
     out_color_pairs[at] = pair(uvec2(packHalf2x16(color.rg), packHalf2x16(color.ba)));
   } else {
@@ -110,29 +112,60 @@ Particle load_particle(uint at) {
   return unpack(payload);
 }
 
-// The exact surface at one pixel, shaded; written where this round changed the pixel.
-void resolve(uvec2 pixel, float pixel_key, uint winner) {
+// Uniform values that every pixel needs, taken once.
+struct Taken {
+  uint width;
+  vec4 viewport, sample_near_far, material;
+  float inverse_rest;
+  vec3 ambient, head_light; // times the material, with one_material
+};
+Taken take() {
+  Taken u;
+  u.width = step.width;
+  u.viewport = frame.viewport;
+  u.sample_near_far = frame.sample_near_far;
+  u.inverse_rest = frame.depth_near.y;
+  u.material = step.material;
+  u.ambient = (one_material ? u.material.x : 1.0) * frame.ambient.rgb;
+  u.head_light = (one_material ? u.material.y : 1.0) * frame.lights[0].strength.rgb;
+  return u;
+}
+
+// The surface at one pixel, shaded; written where this round changed the pixel. `quick`: the ray's x, y to visibility's
+// precision.
+void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, uint winner) {
   bool changed = winner != no_particle;
-  uint who = changed ? winner : 0u, at = pixel.y * step.width + pixel.x;
+  uint who = changed ? winner : 0u, at = pixel.y * u.width + pixel.x;
   Particle particle = load_particle(who);
   uvec2 packed_color = words(placed_colors[who]);
   vec3 own = vec3(unpackHalf2x16(packed_color.x), unpackHalf2x16(packed_color.y).x);
-  Ray ray = pixel_ray(vec2(pixel));
-  Interval hit;
-  intersect(ray, particle, hit);
-  vec3 normal = outward_normal(ray, particle, hit, false);
-  vec4 material = step.material;
+  Ray ray = orthographic ? Ray(vec3(quick, 0.0), vec3(0.0, 0.0, 1.0)) : Ray(vec3(0.0), vec3(quick, 1.0));
+  float t;
+  vec3 normal;
+  if (display_only) {
+    t = pixel_key / dot(ray.direction, ray.direction);
+    normal = normal_at(ray, particle, t);
+  } else {
+    ray = ray_through(vec2(pixel), u.sample_near_far.xy, u.viewport.w, u.inverse_rest);
+    Interval hit;
+    intersect(ray, particle, hit);
+    normal = outward_normal(ray, particle, hit, false);
+    t = hit.t_in;
+  }
+  vec4 material = u.material;
   if (!one_material) material = materials[packed_color.y >> 16];
   vec3 color;
-  if (head_light_only)
-    color = own * (material.x * frame.ambient.rgb + (material.y * max(-normal.z, 0.0)) * frame.lights[0].strength.rgb);
-  else
-    color = shade(Surface(ray.origin + hit.t_in * ray.direction, normal, -normalize(ray.direction)), own, material);
+  if (head_light_only) {
+    vec3 ambient = one_material ? u.ambient : material.x * u.ambient, light = one_material ? u.head_light : material.y * u.head_light;
+    color = own * (ambient + max(-normal.z, 0.0) * light);
+  } else {
+    color = shade(Surface(ray.origin + t * ray.direction, normal, -normalize(ray.direction)), own, material);
+  }
   if (!changed) return;
   nearest[at] = pixel_key;
   write_color(at, color);
-  if (want_depth) out_encoded[at] = encode_depth(hit.t_in);
-  if ((aovs & 1u) != 0u) out_depth[at] = hit.t_in;
+  if (want_depth) out_encoded[at] = encode_depth(t);
+  if ((aovs & 1u) != 0u) out_depth[at] = t;
   if ((aovs & 2u) != 0u) out_id[at] = placed_ids[who];
   if ((aovs & 4u) != 0u)
     out_normal[at] = vec4(normal.x * frame.world_from_view0.xyz + normal.y * frame.world_from_view1.xyz + normal.z * frame.world_from_view2.xyz, 0.0);
@@ -146,8 +179,10 @@ void main() {
   uvec2 base = uvec2(tile % step.tiles_x, tile / step.tiles_x) * uint(tile_size);
 
   // Rays to visibility's precision: a ten-thousandth of a pixel. resolve() forms the exact ones.
-  vec2 offset = vec2(base) + frame.sample_near_far.xy;
-  float inverse_focal = frame.viewport.w + frame.depth_near.y;
+  Taken u = take();
+  uint height = step.height, room = step.tile_room;
+  vec2 offset = vec2(base) + u.sample_near_far.xy;
+  float inverse_focal = u.viewport.w + u.inverse_rest;
   float key[pixels];
   uint won[pixels];
   float ray_x[pixels], ray_y[pixels];
@@ -155,8 +190,8 @@ void main() {
   uvec2 p = pixel_of(k); \
   ray_x[k] = (offset.x + float(p.x)) * inverse_focal; \
   ray_y[k] = (offset.y + float(p.y)) * inverse_focal; \
-  bool inside = base.x + p.x < step.width && base.y + p.y < step.height; \
-  uint pixel = (base.y + p.y) * step.width + base.x + p.x; \
+  bool inside = base.x + p.x < u.width && base.y + p.y < height; \
+  uint pixel = (base.y + p.y) * u.width + base.x + p.x; \
   key[k] = !inside ? -1.0 : infinitely_far; \
   if (!first_round) { if (inside && !untouched) key[k] = nearest[pixel]; } \
   won[k] = no_particle; }
@@ -171,7 +206,7 @@ void main() {
     bool alive;
     do {
       uint mine_at = min(at + lane(), end - 1u);
-      uvec2 filed = words(entries[(mine_at < step.tile_room ? own : spilled) + mine_at]);
+      uvec2 filed = words(entries[(mine_at < room ? own : spilled) + mine_at]);
       entry = filed.x;
       alive = at + lane() < end && uintBitsToFloat(filed.y) < hidden_from;
       at += uint(LANES);
@@ -187,6 +222,21 @@ void main() {
     far[tile] = hidden_from;
     tiles[4u * tile + 3u] = step.stamp;
   }
-#define RESOLVE(k) resolve(base + pixel_of(k), key[k], won[k]);
-  FOR_PIXELS(RESOLVE)
+
+  // Only rows of pixels in which something changed: in later rounds few do.
+  uint changed = 0u;
+#define CHANGED(k) changed |= won[k] != no_particle ? 1u << (k) : 0u;
+  FOR_PIXELS(CHANGED)
+  changed = subgroupOr(changed);
+  do {
+    int row = findLSB(changed);
+    float row_key = 0.0;
+    uint row_won = no_particle;
+    vec2 row_ray = vec2(ray_x[0], 0.0);
+#define SELECT(k) { bool me = row == (k); row_key = me ? key[k] : row_key; row_won = me ? won[k] : row_won; \
+  row_ray = me ? vec2(ray_x[k], ray_y[k]) : row_ray; }
+    FOR_PIXELS(SELECT)
+    resolve(u, base + pixel_of(row), row_ray, row_key, row_won);
+    changed &= changed - 1u;
+  } while (changed != 0u);
 }

@@ -16,7 +16,7 @@ void main() {
   uint rect_lo = chunks[i * chunk_words + 4u], rect_hi = chunks[i * chunk_words + 5u];
   uint draw = chunks[i * chunk_words + 7u] * draw_words;
   uvec2 lo = corner(rect_lo), hi = corner(rect_hi), span = hi - lo + 1u;
-  uint flag = draws[draw + 17u] + chunks[i * chunk_words + 6u];
+  uint flag = draws[draw + 11u] + chunks[i * chunk_words + 6u];
   bool before = flags[flag] != 0u, take = before;
   if (step.others != 0u) {
     bool now = z_min < farthest(lo, hi, level_of(max(span.x, span.y)));
@@ -28,7 +28,7 @@ void main() {
   uvec2 most = uvec2(rect_lo >> 24, rect_hi >> 24);
   most = mix(min(most, span), span, equal(most, uvec2(255u)));
   uint start = atomicAdd(arguments[step.region], chunk_capacity * max(most.x * most.y, 4u));
-  uint round = start / step.capacity, slice = draws[draw + 18u];
+  uint round = start / step.capacity, slice = (draws[draw + 15u] >> 16) & 0x7FFFu;
   uint place = atomicAdd(arguments[slice_arguments(round, slice)], 1u);
   lists[list_at(round, slice) + place] = i;
   atomicMax(arguments[allocate_arguments(round)], (step.tiles_x * step.tiles_y + 63u) / 64u);

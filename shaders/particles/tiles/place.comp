@@ -58,10 +58,11 @@ void main() {
   WORDS(draws, draw)
   vec3 linear0 = uintBitsToFloat(uvec3(w[0], w[1], w[2])), linear1 = uintBitsToFloat(uvec3(w[4], w[5], w[6]));
   float scale = uintBitsToFloat(w[3]);
+  uint id_base = w[7];
   WORDS(draws, draw + 8u)
   vec3 linear2 = uintBitsToFloat(uvec3(w[0], w[1], w[2])), color = uintBitsToFloat(uvec3(w[4], w[5], w[6]));
-  WORDS(draws, draw + 16u)
-  uint id_base = w[0], colored = w[3], material = w[4];
+  uint material = w[7] & 0xFFFFu;
+  bool colored = (w[7] >> 31) != 0u;
 
   vec4 record[record_vec4s];
   for (int i = 0; i < record_vec4s; ++i) {
@@ -78,12 +79,11 @@ void main() {
     payloads[to] = pair(floatBitsToUint(payload[i].xy));
     payloads[to + 1u] = pair(floatBitsToUint(payload[i].zw));
   }
-  if (per_particle_color) color = colored != 0u ? unpack_color(colors[slot]).rgb : color;
+  if (per_particle_color) color = colored ? unpack_color(colors[slot]).rgb : color;
   placed_colors[at] = pair(uvec2(packHalf2x16(color.rg), (packHalf2x16(vec2(color.b, 0.0)) & 0xFFFFu) | material << 16));
   if (want_ids) placed_ids[at] = id_base + rows[slot];
 
   Proxy bounds = proxy(particle);
-  z_mins[at] = bounds.z_min;
   uvec4 rect = tile_rect(bounds);
   // What was reserved is the chunk's rectangle; rounding never leads out of it.
   uvec2 lo = max(rect.xy, rect_lo), hi = min(rect.zw, rect_hi);
@@ -91,12 +91,15 @@ void main() {
   if (some && !first_round) some = bounds.z_min < farthest(lo, hi, level_of(max(hi.x - lo.x, hi.y - lo.y) + 1u));
   if (!some) return;
   PAIR entry = pair(uvec2(at, floatBitsToUint(bounds.z_min)));
+  uint tiles_x = step.tiles_x, room = step.tile_room, list = scatter_arguments(step.round) + 3u, spilled = step.spilled;
   uvec2 tile = lo;
   do {
-    uint t = tile.y * step.tiles_x + tile.x;
+    uint t = tile.y * tiles_x + tile.x;
     uint k = atomicAdd(tiles[4u * t], 1u);
-    if (k < step.tile_room) entries[t * step.tile_room + k] = entry;
-    else spilled[atomicAdd(arguments[scatter_arguments(step.round) + 3u], 1u)] = pair(uvec2(t, at));
+    bool fits = k < room;
+    uint to = t * room + k;
+    if (!fits) to = spilled + atomicAdd(arguments[list], 1u);
+    entries[to] = fits ? entry : pair(uvec2(t, at));
     bool wrap = tile.x == hi.x;
     tile = wrap ? uvec2(lo.x, tile.y + 1u) : uvec2(tile.x + 1u, tile.y);
   } while (tile.y <= hi.y);

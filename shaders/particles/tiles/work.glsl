@@ -24,6 +24,7 @@ PAIR pair(uvec2 w) { return w; }
 const uint chunk_capacity = 64u;
 const int tile_size = 8;
 
+// A CPU device gathers uniform values lane by lane at every use: loops take them into locals first.
 layout(push_constant) uniform StepBlock {
   uint first, count;        // placed chunks of this step
   uint others;              // 0: the chunks that were seen in the last frame; 1: the rest, tested against the depth so far
@@ -37,7 +38,8 @@ layout(push_constant) uniform StepBlock {
   uint width, height;       // pixels
   uint tile_room;           // entries that a tile holds by itself
   uint stamp;               // of this frame: tiles that bear it were cast before
-  uint unused0, unused1;
+  uint spilled;             // where the list of entries without a place starts in `entries`
+  uint unused0;
   vec4 material;            // of all batches, with one_material
 } step;
 
@@ -46,9 +48,9 @@ layout(push_constant) uniform StepBlock {
 //   (corner() of each; bits 24..31: tiles that one of its particles may cover in x, y); 6 its index in its slice; 7 its draw
 const uint chunk_words = 8u;
 // Words of a draw, one for each (batch, instance, slice):
-//   0..2 linear0, 3 scale, 4..6 linear1, 8..10 linear2, 12..15 color, 16 id_base, 17 first_flag, 18 slice, 19 colored,
-//   20 material
-const uint draw_words = 24u;
+//   0..2 linear0, 3 scale, 4..6 linear1, 7 id_base, 8..10 linear2, 11 first_flag, 12..14 color,
+//   15 material (bits 0..15), slice (16..30), whether particles have colors of their own (31)
+const uint draw_words = 16u;
 
 // A corner of a rectangle of tiles: x in bits 0..11, y in 12..23.
 uvec2 corner(uint packed_xy) { return uvec2(packed_xy & 0xFFFu, (packed_xy >> 12) & 0xFFFu); }
