@@ -8,11 +8,14 @@
 
 namespace mote::passes {
 
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 4> pass_codes{{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 7> pass_codes{{
     {"G031", "error: a draw list names a particle type that does not exist"},
     {"P001", "failed: a particle type cannot be drawn by the expansion that was asked for, or the device cannot"},
     {"P002", "failed: a shader that is made at run time does not compile"},
     {"P003", "failed: a scene has more lights than a frame can hold"},
+    {"P004", "failed: a scene has more transparent particles than one order can hold on the device"},
+    {"P005", "warning: the lists of exact transparency were too small for a row of pixels"},
+    {"P006", "error: parameters of a pass that do not go together"},
 }};
 
 } // namespace mote::passes

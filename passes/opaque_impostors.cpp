@@ -6,7 +6,9 @@
 #include "passes/particles/particle_store.hpp"
 #include "passes/particles/pipelines.hpp"
 #include "passes/particles/quad_indices.hpp"
+#include "passes/particles/selection.hpp"
 #include "passes/particles/tiles/tile_renderer.hpp"
+#include "passes/states.hpp"
 
 #include <fmt/format.h>
 
@@ -41,12 +43,8 @@ public:
     for (const AovSlot& aov : aov_slots)
       slots.push_back({.name = std::string(aov.name), .access = rg::Access::ColorWrite, .summary = std::string(aov.summary),
                        .makes = rg::TextureSpec{.format = aov.format}, .optional = true, .copied_into = true});
-    for (const rg::LocatedString& type : params.draw())
-      if (!find_particle_type(type.text))
-        params.error_at("G031", type.loc, fmt::format("there is no particle type '{}'", type.text),
-                        {"particle types: " + list_of(particle_type_names()), did_you_mean(type.text, particle_type_names())});
-      else
-        draw_.push_back(type.text);
+    selection_ = read_selection(params, params.has("blend") ? Opacity::All : Opacity::Opaque);
+    states_ = read_states(params);
   }
 
   void prepare(rg::PassContext& context) override {
@@ -60,6 +58,7 @@ public:
 
   gpu::Color clear_value(std::string_view slot, const rg::FrameInput& frame) override {
     if (slot == "aov_depth") return {std::numeric_limits<double>::infinity(), 0, 0, 0};
+    if (slot == "depth") return {cleared_depth(states_), 0, 0, 0};
     if (slot == "aov_id") return {4294967295.0, 0, 0, 0};
     if (slot != "color") return {0, 0, 0, 0};
     const glm::dvec4 b = frame.get<Scene>().background;
@@ -77,6 +76,7 @@ public:
     const FrameBlock block = frame_block(scene, view);
     device.queue().write_buffer(frame_buffer_, 0, std::as_bytes(std::span(&block, 1)));
     const Expansion expansion = choose_expansion(context.frame().get<FrameOptions>().expansion, device, scene);
+    if (expansion == Expansion::Compute) check_tiles(scene);
     const bool tiled = expansion == Expansion::Compute && record_tiles(context, store);
     if (!tiled) placed_ = store.place(scene, view);
     if (tiled && tiled_.rest.draws.empty()) return;
@@ -86,7 +86,7 @@ public:
 private:
   // False: nothing in view is for tiles.
   bool record_tiles(rg::PassContext& context, const ParticleStore& store) {
-    const Scene& scene = context.frame().get<Scene>();
+    const Scene& scene = selected(context.frame().get<Scene>());
     const View& view = context.frame().get<View>();
     store.place_tiles(scene, view, tiled_);
     if (!tiles_) tiles_ = std::make_unique<TileRenderer>(context.device(), pipelines_->frame_layout());
@@ -113,6 +113,15 @@ private:
     return true;
   }
 
+  // The scene without the batches that are not this pass's.
+  const Scene& selected(const Scene& scene) {
+    const auto mine = [&](const Batch& batch) { return selection_.draws(batch); };
+    if (std::all_of(scene.batches.begin(), scene.batches.end(), mine)) return scene;
+    selected_ = scene;
+    std::erase_if(selected_.batches, [&](const Batch& batch) { return !mine(batch); });
+    return selected_;
+  }
+
   void record_draws(rg::PassContext& context, const PlacedView& placed, Expansion expansion, bool loaded) {
     const Scene& scene = context.frame().get<Scene>();
     const View& view = context.frame().get<View>();
@@ -122,13 +131,15 @@ private:
     if (expansion == Expansion::Vertex) indices_.reserve(device, most);
     gpu::RenderPass pass = context.begin_attachments(loaded);
     for (const ParticleDraw& draw : placed.draws) {
-      if (!draws(draw.batch->type)) continue;
+      if (!selection_.draws(*draw.batch)) continue;
       ParticlePipelineKey key = key_for(scene, view, *draw.batch);
       key.expansion = expansion;
       key.near_eye = draw.near_eye;
       key.aovs = aovs_;
       key.targets = targets_;
       key.depth = depth_;
+      key.opaque_only = key.per_particle_color && selection_.opacity == Opacity::Opaque;
+      key.states = states_;
       key.show_depth_violation = context.frame().get<FrameOptions>().show_depth_violation;
       pass.set_pipeline(pipelines_->get(key));
       pass.set_bind_group(0, frame_group_);
@@ -142,10 +153,6 @@ private:
     pass.end();
   }
 
-  [[nodiscard]] bool draws(const std::string& type) const {
-    return draw_.empty() || std::find(draw_.begin(), draw_.end(), type) != draw_.end();
-  }
-
   // Auto is the vertex expansion: it works everywhere and was never slower. What is asked for and cannot be is P001.
   Expansion choose_expansion(Expansion wanted, const gpu::Device& device, const Scene& scene) const {
     const Expansion expansion = wanted == Expansion::Auto ? Expansion::Vertex : wanted;
@@ -153,13 +160,22 @@ private:
       fail(Exit::Failed, "P001", {}, "the device has no geometry stage, so expansion 'geometry' cannot be used", {"expansions that work here: vertex"});
     for (const Batch& batch : scene.batches) {
       const ParticleType* type = find_particle_type(batch.type);
-      if (draws(batch.type) && (!type || !supports(*type, expansion, Phase::Opaque)))
+      if (selection_.draws(batch) && (!type || !supports(*type, expansion, Phase::Opaque)))
         fail(Exit::Failed, "P001", {}, fmt::format("particle type '{}' cannot be drawn by expansion '{}'", batch.type, to_string(expansion)),
              {"mote graph --kinds prints what works together"});
     }
     if (scene.lights.size() > max_lights)
       fail(Exit::Failed, "P003", {}, fmt::format("the scene has {} lights; a frame holds {}", scene.lights.size(), max_lights));
     return expansion;
+  }
+
+  // What tiles cannot do, and is not done otherwise unasked: P001.
+  void check_tiles(const Scene& scene) const {
+    const std::vector<std::string> hints{"--expansion vertex or geometry can"};
+    if (states_ != DrawStates{}) fail(Exit::Failed, "P001", {}, "expansion 'compute' draws with the default depth_test, depth_write, blend and cull only", hints);
+    for (const Batch& batch : scene.batches)
+      if (selection_.opacity == Opacity::Opaque && selection_.draws(batch) && has_own_alpha(batch))
+        fail(Exit::Failed, "P001", {}, fmt::format("expansion 'compute' cannot tell the opaque particles of '{}' from its transparent ones", batch.name), hints);
   }
 
   void make_frame_group(gpu::Device& device, const ParticleStore& store) {
@@ -170,7 +186,8 @@ private:
     frame_group_ = device.create_bind_group({.label = "frame", .layout = &pipelines_->frame_layout(), .entries = entries});
   }
 
-  std::vector<std::string> draw_; // particle types; empty: all
+  Selection selection_;
+  DrawStates states_;
   std::vector<TextureFormat> targets_;
   TextureFormat depth_{};
   std::uint32_t aovs_{};
@@ -180,6 +197,7 @@ private:
   QuadIndices indices_;
   PlacedView placed_;
   TiledView tiled_;
+  Scene selected_; // alive while its draws are recorded
   std::unique_ptr<TileRenderer> tiles_;
 };
 

@@ -142,6 +142,11 @@ void Executor::prepare(const FrameInput& frame, ViewSize view) {
 
 void Executor::reset_state() { resources_.reset_state(); }
 
+void Executor::report(Diagnostics& out) {
+  for (std::size_t i = 0; i < passes_.size(); ++i)
+    if (i < choice_.skipped.size() && choice_.skipped[i].empty()) passes_[i]->report(out);
+}
+
 void Executor::choose(const FrameInput& frame) {
   std::vector<std::string> reasons;
   for (const auto& pass : passes_) reasons.push_back(pass->idle_reason(frame));

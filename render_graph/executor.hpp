@@ -42,6 +42,8 @@ public:
   // made anew. Throws as prepare() does and what passes throw while recording (nothing is then submitted).
   gpu::Submission execute(const FrameInput& frame, ViewSize view, const ExecuteOptions& options = {});
   void reset_state();
+  // What the passes of the last frame have to say about it; only after its submission was waited for.
+  void report(Diagnostics& out);
 
   // Of a root ("display.color", or what --dump asked for), valid after a frame; else an invalid object.
   [[nodiscard]] gpu::Texture texture(std::string_view source) const;

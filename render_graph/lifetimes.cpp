@@ -72,6 +72,7 @@ private:
       pass.uses.push_back(make_use(node, slot, in, out, position));
       touch(pass.uses.back(), position);
       if (slot.copied_into && out >= 0) plan_.textures[pass.uses.back().resource].usage |= gpu::TextureUsage::CopyDst;
+      if (slot.sampled_too && out >= 0) plan_.textures[pass.uses.back().resource].usage |= gpu::TextureUsage::Sampled;
     }
     plan_.passes.push_back(std::move(pass));
   }

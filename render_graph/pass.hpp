@@ -117,6 +117,8 @@ public:
   // For passes that are a pixel map from their one input to their one output; valid until the next call. Called while
   // recording, with frame() there.
   virtual const PixelMap* pixel_map(PassContext& context) { (void)context; return nullptr; }
+  // What the frames so far turned out to lack (memory that overflowed, ...). Only after the device has finished them.
+  virtual void report(Diagnostics& out) { (void)out; }
   // True: the pass begins its RenderPasses itself, on encoder() (one per layer or mip of an attachment, say).
   [[nodiscard]] virtual bool opens_attachments() const { return false; }
   // Reason why this frame needs nothing from the pass ("no light casts shadows"), or empty. Pure: reads only

@@ -66,6 +66,7 @@ struct Slot {
   bool optional{};                     // an input that may stay unconnected, an output that is made only when wanted
   bool state{};                        // ReadWrite + makes, kept between frames, zero after a camera cut, a reload or a resize
   bool buffer{};                       // an input slot that takes a buffer
+  bool sampled_too{};                  // attachment: the pass also reads it in shaders, between RenderPasses that it opens itself
   bool covers{};                       // attachment: the pass writes every pixel, so that it is not cleared first
   bool copied_into{};                  // attachment: the pass may also fill it by a copy, outside of drawing
 };

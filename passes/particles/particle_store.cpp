@@ -166,18 +166,23 @@ std::vector<Run> ParticleStore::Impl::place_all(const Scene& scene, const View& 
   return runs;
 }
 
-namespace {
-BatchBlock block_of(const Run& run, const View& view) {
-  const glm::dmat4& m = run.batch->instances[run.instance].world_from_data;
+BatchBlock batch_block(const Batch& batch, std::size_t instance, const View& view) {
+  const glm::dmat4& m = batch.instances[instance].world_from_data;
   const glm::dmat3 linear = view.rotation * glm::dmat3(m);
-  const Material& material = run.batch->material;
+  const Material& material = batch.material;
   BatchBlock block;
   block.linear0_scale = glm::vec4(glm::vec3(linear[0]), static_cast<float>(similarity_scale(m).value_or(1.0)));
   block.linear1 = glm::vec4(glm::vec3(linear[1]), 0.0f);
   block.linear2 = glm::vec4(glm::vec3(linear[2]), 0.0f);
-  block.color = glm::vec4(glm::vec3(run.batch->color), static_cast<float>(run.batch->alpha));
+  block.color = glm::vec4(glm::vec3(batch.color), static_cast<float>(batch.alpha));
   block.material = glm::vec4(glm::dvec4(material.ambient, material.diffuse, material.specular, material.exponent));
-  block.id_base = static_cast<std::uint32_t>(run.batch->id_base + run.instance * run.batch->row_count);
+  block.id_base = static_cast<std::uint32_t>(batch.id_base + instance * batch.row_count);
+  return block;
+}
+
+namespace {
+BatchBlock block_of(const Run& run, const View& view) {
+  BatchBlock block = batch_block(*run.batch, run.instance, view);
   block.first_placement = run.first;
   block.first_near = run.first_near;
   return block;

@@ -28,6 +28,8 @@ struct BatchBlock {
   std::uint32_t id_base{}, first_placement{}, first_near{};
 };
 static_assert(sizeof(BatchBlock) == 92);
+// What all draws of an instance share; where its placements start is left at 0.
+BatchBlock batch_block(const Batch& batch, std::size_t instance, const View& view);
 
 struct ParticleDraw {
   const Batch* batch{};

@@ -11,17 +11,18 @@ namespace {
 
 // One line a type.
 const std::array<ParticleType, 1> types{{
-    {"sphere", "exact sphere: center, radius", 1, {Expansion::Vertex, Expansion::Geometry, Expansion::Compute}, {Phase::Opaque}},
+    {"sphere", "exact sphere: center, radius", 1, {Expansion::Vertex, Expansion::Geometry, Expansion::Compute}, {Phase::Opaque, Phase::Transparent}},
 }};
 
 constexpr std::array expansions{Expansion::Vertex, Expansion::Geometry, Expansion::Compute};
-constexpr std::array phases{Phase::Opaque};
+constexpr std::array phases{Phase::Opaque, Phase::Transparent};
 
 } // namespace
 
 std::string_view to_string(Phase phase) {
   switch (phase) {
   case Phase::Opaque: return "opaque";
+  case Phase::Transparent: return "transparent";
   }
   return "opaque";
 }
@@ -40,6 +41,7 @@ std::vector<std::string> particle_type_names() {
 }
 
 bool supports(const ParticleType& type, Expansion expansion, Phase phase) {
+  if (expansion == Expansion::Compute && phase == Phase::Transparent) return false; // a tile keeps the nearest surface only
   return std::count(type.expansions.begin(), type.expansions.end(), expansion) > 0 &&
          std::count(type.phases.begin(), type.phases.end(), phase) > 0;
 }

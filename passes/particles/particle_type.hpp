@@ -17,7 +17,7 @@
 
 namespace mote::passes {
 
-enum class Phase : std::uint8_t { Opaque };
+enum class Phase : std::uint8_t { Opaque, Transparent };
 std::string_view to_string(Phase phase);
 
 struct ParticleType {

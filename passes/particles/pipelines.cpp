@@ -38,6 +38,14 @@ ParticlePipelineKey key_for(const Scene& scene, const View& view, const Batch& b
   return key;
 }
 
+std::vector<gpu::SpecializationConstant> particle_constants(const ParticlePipelineKey& key) {
+  return {gpu::spec(0, key.orthographic),       gpu::spec(1, key.light_count),
+          gpu::spec(2, key.local_lights),       gpu::spec(3, key.specular_model),
+          gpu::spec(4, key.per_particle_color), gpu::spec(5, key.show_depth_violation),
+          gpu::spec(6, key.head_light_only),    gpu::spec(20, key.opaque_only),
+          gpu::spec(21, key.states.blend != 0), gpu::spec(22, static_cast<std::uint32_t>(key.states.cull))};
+}
+
 ParticlePipelines::ParticlePipelines(gpu::Device device, const gpu::BindGroupLayout& particles) : device_(std::move(device)) {
   const bool geometry = gpu::has(device_.features(), gpu::Feature::GeometryShader);
   const std::array entries{gpu::BindGroupLayoutEntry{
@@ -69,12 +77,10 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   const gpu::ShaderModule vertex = module(folder + (geometry ? "/geometry.vert" : "/vertex.vert"));
   const gpu::ShaderModule fragment = module(fmt::format("{}/opaque.frag/aov{}", folder, key.aovs));
   const gpu::ShaderModule geometry_module = geometry ? module(folder + "/geometry.geom") : gpu::ShaderModule();
-  const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(1, key.light_count),
-                             gpu::spec(2, key.local_lights), gpu::spec(3, key.specular_model),
-                             gpu::spec(4, key.per_particle_color), gpu::spec(5, key.show_depth_violation),
-                             gpu::spec(6, key.head_light_only)};
+  const std::vector<gpu::SpecializationConstant> constants = particle_constants(key);
   std::vector<gpu::ColorTargetState> targets;
   for (const gpu::TextureFormat format : key.targets) targets.push_back({.format = format});
+  if (!targets.empty()) targets[0].blend = unpack_blend(key.states.blend); // the AOVs behind it never blend
 
   gpu::RenderPipelineDescriptor descriptor{.label = "particles"};
   const std::string label = to_string(key);
@@ -84,7 +90,7 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   if (geometry) descriptor.geometry = gpu::ProgrammableStage{.module = &geometry_module, .constants = constants};
   descriptor.fragment = gpu::ProgrammableStage{.module = &fragment, .constants = constants};
   descriptor.topology = geometry ? gpu::Topology::PointList : gpu::Topology::TriangleList;
-  descriptor.depth = gpu::DepthState{.format = key.depth, .write = true, .compare = gpu::CompareFunction::Greater};
+  descriptor.depth = gpu::DepthState{.format = key.depth, .write = key.states.depth_write, .compare = encoded(key.states.depth_test)};
   descriptor.targets = targets;
   return pipelines_.emplace(key, device_.create_render_pipeline(descriptor)).first->second;
 }

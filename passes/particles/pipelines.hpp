@@ -8,6 +8,7 @@
 #include "core/gpu/gpu.hpp"
 #include "core/scene/scene.hpp"
 #include "passes/particles/particle_type.hpp"
+#include "passes/states.hpp"
 
 #include <cstdint>
 #include <map>
@@ -32,6 +33,8 @@ struct ParticlePipelineKey {
   bool per_particle_color{};
   bool head_light_only{};
   bool show_depth_violation{};
+  bool opaque_only{}; // particles of alpha below 1 draw as nothing
+  DrawStates states{};
   std::vector<gpu::TextureFormat> targets{};
   gpu::TextureFormat depth{};
   auto operator<=>(const ParticlePipelineKey&) const = default;
@@ -40,6 +43,9 @@ std::string to_string(const ParticlePipelineKey& key);
 
 // What a batch of a scene needs; targets, aovs, phase and expansion are the pass's to fill in.
 ParticlePipelineKey key_for(const Scene& scene, const View& view, const Batch& batch);
+
+// The specialization constants that all stages of particle shaders know.
+std::vector<gpu::SpecializationConstant> particle_constants(const ParticlePipelineKey& key);
 
 class ParticlePipelines {
 public:

@@ -18,10 +18,10 @@ void QuadIndices::reserve(gpu::Device& device, std::uint32_t particles) {
                                   .contents = std::as_bytes(std::span<const std::uint32_t>(indices))});
 }
 
-void QuadIndices::draw(gpu::RenderPass& pass, std::uint32_t particles) const {
+void QuadIndices::draw(gpu::RenderPass& pass, std::uint32_t particles, std::uint32_t start) const {
   pass.set_index_buffer(buffer_, gpu::IndexFormat::Uint32);
   for (std::uint32_t first = 0; first < particles; first += most_per_draw)
-    pass.draw_indexed(std::min(most_per_draw, particles - first) * 6, 1, 0, static_cast<std::int32_t>(first * 4));
+    pass.draw_indexed(std::min(most_per_draw, particles - first) * 6, 1, 0, static_cast<std::int32_t>((start + first) * 4));
 }
 
 } // namespace mote::passes

@@ -15,7 +15,8 @@ public:
   // Particles that one draw_indexed may expand: 24 bytes of indices each.
   static constexpr std::uint32_t most_per_draw = 1u << 20;
   void reserve(gpu::Device& device, std::uint32_t particles); // before the pass opens
-  void draw(gpu::RenderPass& pass, std::uint32_t particles) const;
+  // The particles [start, start + particles); what was reserved bounds `particles`, not `start`.
+  void draw(gpu::RenderPass& pass, std::uint32_t particles, std::uint32_t start = 0) const;
 
 private:
   gpu::Buffer buffer_;

@@ -9,16 +9,34 @@
 
 #include "particles/interface.glsl"
 
-layout(push_constant) uniform BatchBlock {
-  vec4 linear0_scale;  // columns of Placement.linear; w of the first: scale
-  vec4 linear1;
-  vec4 linear2;
-  vec4 color;          // working space, straight alpha; rgb used where particles have no color of their own
-  vec4 material;       // ambient, diffuse, specular, exponent
-  uint id_base;        // id of row 0 of this instance
-  uint first_placement;
-  uint first_near;     // NEAR_EYE: place of the draw's first particle among the near payloads
-} batch;
+// Mirrors BatchBlock of passes/particles/particle_store.hpp.
+//   linear0..2_scale: columns of Placement.linear; w of the first: scale
+//   color:            working space, straight alpha; rgb used where particles have no color of their own
+//   material:         ambient, diffuse, specular, exponent
+//   id_base:          id of row 0 of this instance
+//   first_near:       NEAR_EYE: place of the draw's first particle among the near payloads
+#define BATCH_FIELDS \
+  vec4 linear0_scale; \
+  vec4 linear1; \
+  vec4 linear2; \
+  vec4 color; \
+  vec4 material; \
+  uint id_base; \
+  uint first_placement; \
+  uint first_near;
+
+#ifdef ORDERED
+// Particles of any batch in one draw (passes/particles/ordered_store.hpp): `batch` is a row of a table, chosen by
+// batch_index, which load_particle() sets and the fragment stage gets flat.
+struct BatchRow { BATCH_FIELDS };
+layout(std430, set = 1, binding = 5) readonly buffer Order { uint order[]; };    // 64 placement + slot
+layout(std430, set = 1, binding = 6) readonly buffer Owners { uint owners[]; };  // per placement
+layout(std430, set = 1, binding = 7) readonly buffer Batches { BatchRow batches[]; };
+uint batch_index = 0u;
+#define batch batches[batch_index]
+#else
+layout(push_constant) uniform BatchBlock { BATCH_FIELDS } batch;
+#endif
 
 layout(std430, set = 1, binding = 0) readonly buffer Records { vec4 records[]; };
 layout(std430, set = 1, binding = 1) readonly buffer Rows { uint rows[]; };
@@ -32,6 +50,13 @@ layout(std430, set = 1, binding = 4) readonly buffer NearPayloads { vec4 near_pa
 
 const uint chunk_capacity = 64u;
 
+// States of the pass (passes/states.hpp, passes/particles/selection.hpp).
+layout(constant_id = 20) const bool opaque_only = false; // particles of alpha below 1 draw as nothing
+layout(constant_id = 21) const bool blended = false;     // the fragment's alpha is the particle's, else 1
+layout(constant_id = 22) const int cull = 0;             // surfaces left out: 0 none, 1 front, 2 back
+
+bool selected(float alpha) { return !opaque_only || alpha >= 1.0; }
+
 struct Loaded {
   Particle particle;
   vec4 color; // with head_light_only: color times ambient light
@@ -41,6 +66,10 @@ struct Loaded {
 
 // `index` counts the places of all placed chunks: 64 a chunk.
 Loaded load_particle(uint index) {
+#ifdef ORDERED
+  index = order[index];
+  batch_index = owners[index / chunk_capacity];
+#endif
   uvec4 placed = placements[batch.first_placement + index / chunk_capacity];
   uint slot = placed.w * chunk_capacity + index % chunk_capacity;
   Loaded loaded;
@@ -59,6 +88,9 @@ Loaded load_particle(uint index) {
   loaded.color = batch.color;
   if (per_particle_color) {
     vec4 own = unpack_color(colors[slot]);
+#ifdef ORDERED
+    own.rgb *= batch.color.rgb; // white for batches that have one color, whose row has white otherwise
+#endif
     loaded.color = vec4(own.rgb, own.a * batch.color.a);
   }
   loaded.lit = vec3(0.0);

@@ -11,21 +11,30 @@ layout(location = 0) in vec4 g_color[];
 layout(location = 1) in uint g_id[];
 layout(location = 2) in vec4 g_payload[][payload_vec4s];
 layout(location = 2 + payload_vec4s) in vec3 g_lit[];
+#ifdef ORDERED
+layout(location = 3 + payload_vec4s) in uint g_batch[];
+#endif
 
 layout(location = 0) flat out vec4 v_color;
 layout(location = 1) flat out uint v_id;
 layout(location = 2) flat out vec4 v_payload[payload_vec4s];
 layout(location = 2 + payload_vec4s) flat out vec3 v_lit;
+#ifdef ORDERED
+layout(location = 3 + payload_vec4s) flat out uint v_batch;
+#endif
 
 void main() {
   Particle particle = unpack(g_payload[0]);
   Proxy bounds = proxy(particle);
-  if (!drawable(particle) || bounds.lo.x > bounds.hi.x || bounds.lo.y > bounds.hi.y) return;
+  if (!selected(g_color[0].a) || !drawable(particle) || bounds.lo.x > bounds.hi.x || bounds.lo.y > bounds.hi.y) return;
   for (int i = 0; i < 4; ++i) {
     gl_Position = proxy_corner(bounds, i);
     v_color = g_color[0];
     v_lit = g_lit[0];
     v_id = g_id[0];
+#ifdef ORDERED
+    v_batch = g_batch[0];
+#endif
     for (int k = 0; k < payload_vec4s; ++k) v_payload[k] = g_payload[0][k];
     EmitVertex();
   }
