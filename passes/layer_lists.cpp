@@ -11,22 +11,23 @@
 namespace mote::passes {
 namespace {
 
-constexpr double slack = 2.0; // pixels: sample offsets and rounding never matter
+constexpr double slack = 0.05; // pixels: margins of proxies and rounding
 
-// Smallest and largest pixel that the extent [center - r, center + r] can project to, at depths z +- r; limited to
-// [0, size]. Nearer than the near plane is everywhere.
+// Pixels [begin, end) whose sample may see the extent [center - r, center + r] at depths z +- r. What reaches the eye
+// plane may be seen everywhere.
 struct Extent {
-  double lo{}, hi{};
+  std::int64_t begin{}, end{};
 };
-Extent extent(double center, double z, double r, const View& view, double size) {
+Extent extent(double center, double z, double r, const View& view, double size, double sample) {
   double lo = center - r, hi = center + r;
   if (view.projection == Projection::Perspective) {
     const double near = z - r, far = z + r;
-    if (near <= 1e-9 * far) return {0.0, size};
+    if (near <= 1e-9 * far) return {0, static_cast<std::int64_t>(size)};
     lo = std::min(lo / near, lo / far);
     hi = std::max(hi / near, hi / far);
   }
-  return {std::clamp(lo * view.focal + 0.5 * size - slack, 0.0, size), std::clamp(hi * view.focal + 0.5 * size + slack, 0.0, size)};
+  const double first = std::ceil(lo * view.focal + 0.5 * size - sample - slack), last = std::floor(hi * view.focal + 0.5 * size - sample + slack);
+  return {static_cast<std::int64_t>(std::clamp(first, 0.0, size)), static_cast<std::int64_t>(std::clamp(last + 1.0, 0.0, size))};
 }
 
 // Number of particles that begin or end to be seen at each row, times their width in pixels.
@@ -36,12 +37,11 @@ struct RowCounter {
 
   void add(const glm::dvec3& c, double r) {
     if (view.projection == Projection::Perspective && c.z + r <= 0.0) return;
-    const Extent x = extent(c.x, c.z, r, view, view.size.width), y = extent(c.y, c.z, r, view, view.size.height);
-    const auto width = static_cast<std::int64_t>(std::ceil(x.hi) - std::floor(x.lo));
-    const auto first = static_cast<std::size_t>(std::floor(y.lo)), last = static_cast<std::size_t>(std::ceil(y.hi));
-    if (width <= 0 || first >= last) return;
-    change[first] += width;
-    change[last] -= width;
+    const Extent x = extent(c.x, c.z, r, view, view.size.width, view.sample_offset.x);
+    const Extent y = extent(c.y, c.z, r, view, view.size.height, view.sample_offset.y);
+    if (x.begin >= x.end || y.begin >= y.end) return;
+    change[static_cast<std::size_t>(y.begin)] += x.end - x.begin;
+    change[static_cast<std::size_t>(y.end)] -= x.end - x.begin;
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include "core/base/diagnostic.hpp"
 #include "core/reference/codes.hpp"
+#include "core/reference/layers.hpp"
 #include "core/reference/parallel.hpp"
 #include "core/reference/shade.hpp"
 #include "core/reference/tracer.hpp"
@@ -55,7 +56,10 @@ ReferencePicture render_reference(const reference::World& world, const View& vie
   if (options.normals) out.projected_radius.resize(n);
   if (options.colors) out.color.resize(n);
   if (options.ambiguity) out.ambiguous.resize(n);
+  const bool layered = options.colors && !world.transparent_placed.empty();
+  if (layered && options.ambiguity) out.layers_ambiguous.resize(n);
   const Tracer tracer(world, view);
+  const reference::LayerTracer layer_tracer(tracer, options.two_surfaces);
   each_pixel(view.size, options.threads, [&](std::uint32_t x, std::uint32_t y, std::size_t i) {
     const Sample sample = tracer.sample(x, y, options.ambiguity);
     out.depth[i] = sample.hit.t;
@@ -67,6 +71,10 @@ ReferencePicture render_reference(const reference::World& world, const View& vie
     if (options.normals && sample.hit)
       out.projected_radius[i] = static_cast<float>(tracer.projected_radius(sample.hit));
     if (options.colors) out.color[i] = reference::shade(tracer, sample, normal, options.shadows);
+    if (!layered) return;
+    const std::vector<reference::Layer> layers = layer_tracer.layers(sample.ray, sample.hit.t);
+    out.color[i] = layer_tracer.over(layers, sample.ray, out.color[i], options.shadows);
+    if (options.ambiguity) out.layers_ambiguous[i] = sample.ambiguous || layer_tracer.ambiguous(x, y, sample, layers);
   });
   out.transparent = world.transparent;
   out.build_seconds = world.build_seconds;
@@ -82,13 +90,15 @@ std::vector<glm::dvec4> render_reference_area(const reference::World& world, con
                                               const ReferenceOptions& options) {
   std::vector<glm::dvec4> out(std::size_t{view.size.width} * view.size.height);
   const Tracer tracer(world, view);
+  const reference::LayerTracer layer_tracer(tracer, options.two_surfaces);
   each_pixel(view.size, options.threads, [&](std::uint32_t x, std::uint32_t y, std::size_t i) {
     glm::dvec4 sum(0); // premultiplied, so that transparent backgrounds average rightly
     for (unsigned k = 0; k < n * n; ++k) {
       const double dx = (k % n + 0.5) / n - 0.5, dy = (k / n + 0.5) / n - 0.5;
       const Sample sample = tracer.sample(x + dx, y + dy, false);
       const glm::dvec3 normal = sample.hit ? tracer.normal(sample) : glm::dvec3(0);
-      const glm::dvec4 c = reference::shade(tracer, sample, normal, options.shadows);
+      glm::dvec4 c = reference::shade(tracer, sample, normal, options.shadows);
+      if (!world.transparent_placed.empty()) c = layer_tracer.over(layer_tracer.layers(sample.ray, sample.hit.t), sample.ray, c, options.shadows);
       sum += glm::dvec4(glm::dvec3(c) * c.a, c.a);
     }
     out[i] = sum.a > 0.0 ? glm::dvec4(glm::dvec3(sum) / sum.a, sum.a / (double(n) * n)) : glm::dvec4(0);

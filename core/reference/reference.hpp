@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The reference picture: what a view of a scene shows, computed in double precision on the CPU,
 // sharing no code with the shaders. `mote compare`, `mote chart` and the tests hold the GPU's
-// pictures against it. One sample per pixel at view.sample_offset; opaque particles only.
+// pictures against it. One sample per pixel at view.sample_offset. Transparent particles are in the
+// colors, every surface in its place along the ray (layers.hpp); all else shows opaque ones only.
 //
 // It draws no panels, filters nothing and knows no color management: colors are scene-linear.
 #pragma once
@@ -28,7 +29,8 @@ struct ReferencePicture {
   std::vector<float> projected_radius{}; // with the normals: of the particle seen, pixels; 0 where nothing is
   std::vector<glm::dvec4> color{};       // scene-linear, straight alpha; the background where nothing is
   std::vector<std::uint8_t> ambiguous{}; // 1: float32 rounding may decide what is seen (tracer.hpp)
-  std::uint64_t transparent{};           // particles left out
+  std::vector<std::uint8_t> layers_ambiguous{}; // where there are transparent particles: the same for what they show
+  std::uint64_t transparent{};           // particles that only the colors show
   double build_seconds{}, trace_seconds{};
 };
 
@@ -39,6 +41,7 @@ struct ReferenceOptions {
   bool normals{true};
   bool colors{true};
   bool shadows{true}; // of lights that have them
+  bool two_surfaces{true}; // of transparent particles (contracts, "Transparency"); else one layer each
 };
 
 // Several views of one scene: build the world once. Throws Failure R003.

@@ -11,16 +11,15 @@ double srgb_to_linear(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-glm::dvec3 particle_color(const World& world, const Hit& hit) {
+glm::dvec3 particle_color(const World& world, const Placed& placed, std::uint32_t record) {
   static const std::array<double, 256> linear = [] {
     std::array<double, 256> table{};
     for (std::size_t i = 0; i < 256; ++i) table[i] = srgb_to_linear(double(i) / 255.0);
     return table;
   }();
-  const Placed& placed = world.placed[hit.placed];
   const ChunkSet& chunks = *placed.tree->chunks;
   if (chunks.colors.empty()) return world.scene.batches[placed.batch].color;
-  const std::uint32_t c = chunks.colors[hit.record];
+  const std::uint32_t c = chunks.colors[record];
   return {linear[c & 255u], linear[(c >> 8) & 255u], linear[(c >> 16) & 255u]};
 }
 
@@ -67,25 +66,31 @@ double specular(const Material& material, const glm::dvec3& n, const glm::dvec3&
   return std::pow(std::max(0.0, cosine), material.exponent); // pow(0, 0) = 1
 }
 
-glm::dvec4 shade(const Tracer& tracer, const Sample& sample, const glm::dvec3& normal, bool shadows) {
+glm::dvec3 shade_surface(const Tracer& tracer, const SurfacePoint& at, bool shadows) {
   const World& world = tracer.world();
-  if (!sample.hit) return world.scene.background;
-  const Material& m = world.scene.batches[world.placed[sample.hit.placed].batch].material;
-  const glm::dvec3 position = sample.ray.origin + sample.hit.t * sample.ray.direction;
-  const glm::dvec3 to_eye = -glm::normalize(sample.ray.direction);
+  const Material& m = world.scene.batches[at.placed.batch].material;
+  const glm::dvec3& normal = at.normal;
+  const glm::dvec3 position = at.ray.origin + at.t * at.ray.direction;
+  const glm::dvec3 to_eye = -glm::normalize(at.ray.direction);
   const glm::dvec3 forward = glm::transpose(tracer.view().rotation) * glm::dvec3(0, 0, 1);
   glm::dvec3 diffuse(0), gloss(0);
   for (const Light& light : world.scene.lights) {
     const Arriving a = arriving(light, position, tracer.view().eye, forward);
     const double cosine = glm::dot(normal, a.to_light);
     if (!(cosine > 0.0)) continue;
-    if (shadows && light.shadows && tracer.occluded({position, a.to_light}, a.distance, sample.hit.id))
+    if (shadows && light.shadows && tracer.occluded({position, a.to_light}, a.distance, at.id))
       continue;
     diffuse += a.strength * cosine;
     if (m.specular > 0.0) gloss += a.strength * specular(m, normal, a.to_light, to_eye);
   }
-  const glm::dvec3 color = particle_color(world, sample.hit);
-  return {color * (m.ambient * world.scene.ambient + m.diffuse * diffuse) + m.specular * gloss, 1.0};
+  const glm::dvec3 color = particle_color(world, at.placed, at.record);
+  return color * (m.ambient * world.scene.ambient + m.diffuse * diffuse) + m.specular * gloss;
+}
+
+glm::dvec4 shade(const Tracer& tracer, const Sample& sample, const glm::dvec3& normal, bool shadows) {
+  if (!sample.hit) return tracer.world().scene.background;
+  const Placed& placed = tracer.world().placed[sample.hit.placed];
+  return {shade_surface(tracer, {placed, sample.hit.record, sample.hit.id, sample.ray, sample.hit.t, normal}, shadows), 1.0};
 }
 
 } // namespace mote::reference

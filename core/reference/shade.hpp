@@ -16,7 +16,19 @@ namespace mote::reference {
 double srgb_to_linear(double encoded);
 
 // The particle's own color, or its batch's.
-glm::dvec3 particle_color(const World& world, const Hit& hit);
+glm::dvec3 particle_color(const World& world, const Placed& placed, std::uint32_t record);
+
+// A surface that a ray meets.
+struct SurfacePoint {
+  const Placed& placed;
+  std::uint32_t record{};
+  std::uint64_t id{};
+  Ray ray{}; // world axes, relative to the eye
+  double t{};
+  glm::dvec3 normal{0}; // turned to the eye
+};
+// Its scene-linear light. `shadows` as below.
+glm::dvec3 shade_surface(const Tracer& tracer, const SurfacePoint& at, bool shadows);
 
 // Light arriving from `light` at `position` (world axes, relative to the eye). `eye` in world space,
 // `forward` the camera's axis (head lights).

@@ -24,6 +24,9 @@ bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.
 bool opaque(const ChunkSet& chunks, std::uint64_t record, double batch_alpha) {
   return batch_alpha >= 1.0 && (chunks.colors.empty() || (chunks.colors[record] >> 24) == 255u);
 }
+bool invisible(const ChunkSet& chunks, std::uint64_t record, double batch_alpha) {
+  return !(batch_alpha > 0.0) || (!chunks.colors.empty() && (chunks.colors[record] >> 24) == 0u);
+}
 
 // Exact geometry of a record as numbers that compare: equal ones are duplicates.
 struct SameGeometry {
@@ -42,8 +45,8 @@ struct SameGeometry {
   }
 };
 
-// Items of all records in use; transparent ones are counted.
-std::vector<BvhItem> make_items(Tree& tree, const glm::dvec3& center, double alpha, unsigned threads) {
+// Items of all opaque records in use, the others being counted; or of all transparent ones.
+std::vector<BvhItem> make_items(Tree& tree, const glm::dvec3& center, double alpha, bool of_opaque, unsigned threads) {
   const ChunkSet& chunks = *tree.chunks;
   constexpr std::uint64_t block = 64 * 1024;
   const std::uint64_t records = chunks.record_count();
@@ -56,10 +59,9 @@ std::vector<BvhItem> make_items(Tree& tree, const glm::dvec3& center, double alp
       if (chunks.rows[i] == no_row) continue;
       const Particle p = particle(chunks, i);
       if (!(p.radius > 0.0) || !std::isfinite(p.radius) || !finite(p.center)) continue;
-      if (!opaque(chunks, i, alpha)) {
-        ++transparent;
-        continue;
-      }
+      const bool is_opaque = opaque(chunks, i, alpha);
+      if (of_opaque && !is_opaque) ++transparent;
+      if (is_opaque != of_opaque || (!of_opaque && invisible(chunks, i, alpha))) continue;
       parts[part].push_back(make_item(tree.shape->bounds(p), center, static_cast<std::uint32_t>(i)));
     }
   });
@@ -81,7 +83,7 @@ glm::dvec3 middle(const ChunkSet& chunks) {
 }
 
 std::unique_ptr<Tree> build_tree(const std::shared_ptr<const ChunkSet>& chunks, const Shape& shape,
-                                 double alpha, unsigned threads) {
+                                 double alpha, bool of_opaque, unsigned threads) {
   auto tree = std::make_unique<Tree>();
   tree->chunks = chunks;
   tree->shape = &shape;
@@ -107,7 +109,7 @@ std::unique_ptr<Tree> build_tree(const std::shared_ptr<const ChunkSet>& chunks, 
     tree->repeated.insert(tree->repeated.end(), repeated.begin(), repeated.end());
     return kept;
   };
-  tree->bvh = build_bvh(make_items(*tree, center, alpha, threads), center, collapse, threads);
+  tree->bvh = build_bvh(make_items(*tree, center, alpha, of_opaque, threads), center, of_opaque ? collapse : Collapse{}, threads);
   std::sort(tree->repeated.begin(), tree->repeated.end());
   return tree;
 }
@@ -176,15 +178,20 @@ World build_world(const Scene& scene, unsigned threads) {
     if (!batch.chunks) continue;
     const Tree*& tree = known[{batch.chunks.get(), shape, batch.alpha >= 1.0}];
     if (!tree) {
-      world.trees.push_back(build_tree(batch.chunks, *shape, batch.alpha, threads));
+      world.trees.push_back(build_tree(batch.chunks, *shape, batch.alpha, true, threads));
       tree = world.trees.back().get();
     }
     world.transparent += tree->transparent * batch.instances.size();
-    if (tree->bvh.nodes.empty()) continue;
-    for (std::size_t k = 0; k < batch.instances.size(); ++k)
+    for (std::size_t k = 0; k < batch.instances.size() && !tree->bvh.nodes.empty(); ++k)
       world.placed.push_back(place(*tree, scene, i, k));
+    if (tree->transparent == 0) continue;
+    world.trees.push_back(build_tree(batch.chunks, *shape, batch.alpha, false, threads));
+    const Tree& transparent = *world.trees.back();
+    for (std::size_t k = 0; k < batch.instances.size() && !transparent.bvh.nodes.empty(); ++k)
+      world.transparent_placed.push_back(place(transparent, scene, i, k));
   }
   world.top = build_top(world.placed, threads);
+  world.transparent_top = build_top(world.transparent_placed, threads);
   world.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return world;
 }

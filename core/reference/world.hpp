@@ -2,10 +2,10 @@
 // A scene made ready for rays in double precision: one tree per chunk set, shared by all instances
 // of it, and the instances with their matrices. Built once per scene; views come and go.
 //
-// What counts as a particle: a record in use (a row, a radius above 0, finite numbers) whose opacity
-// is 1. Transparent particles are left out and counted: AOVs show opaque surfaces only.
-// Exact duplicates of a record are kept once, as the lowest row, and remembered: a scene that puts
-// 1e5 spheres in one place costs no more per ray than one sphere.
+// What counts as a particle: a record in use (a row, a radius above 0, finite numbers). Opaque ones
+// (alpha 1) and transparent ones (alpha above 0) have trees of their own: AOVs show opaque surfaces
+// only. Exact duplicates of an opaque record are kept once, as the lowest row, and remembered: a scene
+// that puts 1e5 spheres in one place costs no more per ray than one sphere.
 #pragma once
 
 #include "core/reference/bvh.hpp"
@@ -26,7 +26,7 @@ struct Tree {
   const Shape* shape{};
   Bvh bvh{};
   std::vector<std::uint32_t> repeated{}; // records that stand for several equal ones, ascending
-  std::uint64_t transparent{};           // particles left out
+  std::uint64_t transparent{};           // particles of an opaque tree that it leaves out
   [[nodiscard]] bool is_repeated(std::uint32_t record) const;
 };
 
@@ -45,6 +45,8 @@ struct World {
   Scene scene{}; // values; chunk sets are shared
   std::vector<std::unique_ptr<const Tree>> trees{};
   std::vector<Placed> placed{};
+  std::vector<Placed> transparent_placed{}; // instances that have transparent particles
+  Bvh transparent_top{};
   Bvh top{};                 // over the instances' world boxes; item numbers are indices of `placed`
   std::uint64_t particles{}; // ids run below this
   std::uint64_t transparent{};

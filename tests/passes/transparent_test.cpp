@@ -3,6 +3,8 @@
 // an opaque surface hides, backgrounds that are not opaque.
 #include "graph_test.hpp"
 
+#include "core/reference/reference.hpp"
+
 #include <fmt/format.h>
 
 #include <gmock/gmock.h>
@@ -224,6 +226,84 @@ TEST_F(Transparent, OverflowIsReportedWithWhatWasNeeded) {
   const Colors enough = draw_graph(scene, wide, graph_with("oit = \"exact\", memory = 2"), "glyphs.color");
   EXPECT_TRUE(enough.report.empty()) << to_string(enough.report);
   EXPECT_NEAR(enough.center().a, 1.0, 1e-3);
+}
+
+// Many spheres that overlap, in the double-precision reference: surface by surface along each ray.
+class TransparentReference : public Transparent {
+protected:
+  static Scene cloud(std::size_t n, double r_min, double r_max) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> u(-1, 1);
+    std::vector<glm::dvec4> spheres;
+    std::vector<std::uint32_t> colors;
+    for (std::size_t i = 0; i < n; ++i) {
+      spheres.emplace_back(10 * u(random), 10 * u(random), 10 * u(random), r_min * std::pow(r_max / r_min, 0.5 * (u(random) + 1)));
+      colors.push_back(static_cast<std::uint32_t>(random()) | (i % 50 ? 0u : 0xFF000000u)); // some opaque, all alphas
+    }
+    Scene scene = scene_of(spheres, colors);
+    scene.batches[0].material = {ShadingModel::BlinnPhong, 1, 0.8, 0.3, 20};
+    scene.lights = {{.kind = LightKind::Directional, .direction = glm::normalize(glm::dvec3(-1, -1, -2)), .intensity = 0.8}};
+    return scene;
+  }
+  // The largest difference over all pixels that are not ambiguous, in steps of 255.
+  void expect_equal(const Scene& scene, const View& view, const std::string& params, double bar, bool two_surfaces = true) {
+    const ReferencePicture reference = render_reference(scene, view, {.two_surfaces = two_surfaces});
+    const Colors colors = draw_graph(scene, view, graph_with(params), "glyphs.color");
+    double worst = 0, mean = 0;
+    std::size_t ambiguous = 0, beyond = 0, at = 0;
+    for (std::size_t i = 0; i < reference.color.size(); ++i) {
+      if (reference.layers_ambiguous[i]) {
+        ++ambiguous;
+        continue;
+      }
+      const glm::dvec4 d = glm::abs(glm::dvec4(colors.texels[i]) - reference.color[i]);
+      const double largest = std::max({d.r, d.g, d.b, d.a}) * 255.0;
+      mean += largest;
+      if (largest > worst) at = i;
+      worst = std::max(worst, largest);
+      beyond += largest > bar;
+    }
+    EXPECT_LE(worst, bar) << beyond << " pixels beyond, the worst at " << at % view.size.width << "," << at / view.size.width;
+    EXPECT_LT(static_cast<double>(ambiguous), 0.1 * static_cast<double>(reference.color.size())) << "most pixels must count";
+    EXPECT_GT(std::count_if(colors.texels.begin(), colors.texels.end(), [](const glm::vec4& c) { return c != glm::vec4(1); }), 5000);
+  }
+};
+
+TEST_F(TransparentReference, ExactIsWithinOneStepPerspective) {
+  const Scene scene = cloud(1500, 0.3, 2.0);
+  expect_equal(scene, look(scene, {9, 12, 30}, {0, 0, 0}, {200, 125}), "oit = \"exact\"", 1.0);
+  expect_equal(scene, look(scene, {9, 12, 30}, {0, 0, 0}, {200, 125}), "oit = \"exact\", surfaces = \"front\"", 1.0, false);
+}
+TEST_F(TransparentReference, ExactIsWithinOneStepOrthographic) {
+  const Scene scene = cloud(1500, 0.3, 2.0);
+  expect_equal(scene, look_orthographic(scene, {9, 12, 30}, {0, 0, 0}, {200, 125}, 24), "oit = \"exact\"", 1.0);
+}
+TEST_F(TransparentReference, ExactIsWithinOneStepFromInsideTheCloud) {
+  const Scene scene = cloud(800, 0.3, 2.0);
+  expect_equal(scene, look(scene, {1, 2, 3}, {0, 0, 0}, {200, 125}, 60), "oit = \"exact\"", 1.0);
+  View cut = look(scene, {9, 12, 30}, {0, 0, 0}, {200, 125});
+  cut.near_cut = 30;
+  cut.far_cut = 36;
+  expect_equal(scene, cut, "oit = \"exact\"", 1.0);
+}
+
+// Disjoint spheres with the eye outside: the power of the eye is the exact order.
+TEST_F(TransparentReference, SortedIsExactForDisjointSpheres) {
+  std::vector<glm::dvec4> spheres;
+  std::vector<std::uint32_t> colors;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int x = 0; x < 9; ++x)
+    for (int y = 0; y < 9; ++y)
+      for (int z = 0; z < 9; ++z) {
+        spheres.emplace_back(x - 4 + 0.2 * u(random), y - 4 + 0.2 * u(random), z - 4 + 0.2 * u(random), 0.1 + 0.29 * u(random));
+        colors.push_back(static_cast<std::uint32_t>(random()));
+      }
+  const Scene scene = scene_of(spheres, colors);
+  for (const char* order : {"back_to_front", "front_to_back"}) {
+    expect_equal(scene, look(scene, {5, 7, 14}, {0, 0, 0}, {200, 125}), fmt::format("order = \"{}\"", order), 1.0);
+    expect_equal(scene, look_orthographic(scene, {5, 7, 14}, {0, 0, 0}, {200, 125}, 12), fmt::format("order = \"{}\"", order), 1.0);
+  }
 }
 
 TEST_F(Transparent, ParametersThatDoNotGoTogether) {
