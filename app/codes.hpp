@@ -49,7 +49,7 @@ inline constexpr std::array<AppCode, 18> app_codes{{
     {code::compare_input, "input: a file that compare cannot take as a picture"},
     {code::validation, "failed: the validation layer had something to say"},
     {code::twice_to_stdout, "usage: two outputs to standard output"},
-    {code::alpha_ignored, "warning: transparent particles are drawn opaque"},
+    {code::alpha_ignored, "warning: the graph has no pass for transparent particles"},
     {code::shadows_ignored, "warning: shadows are not drawn"},
     {code::tolerance_ignored, "warning: the tolerance is not used"},
 }};

@@ -113,6 +113,7 @@ void run(const BenchArguments& a) {
   const Job job = load_job(request, diagnostics);
   std::optional<ReadyGraph> graph;
   if (!diagnostics.has_errors()) graph = ready_graph(job.graph, diagnostics);
+  if (graph) warn_of_graph(job, *graph, diagnostics);
   print_and_stop_on_errors(diagnostics);
   const ColorConfig config = ColorConfig::load(a.device.display.config);
   DrawingDevice device(a.device.device);
@@ -120,6 +121,7 @@ void run(const BenchArguments& a) {
   renderer.set_stage_times(a.stages);
   renderer.set_scene(job.scene);
   const Measured measured = measure(renderer, job, a.frames);
+  print(renderer.report());
   const std::string_view used = passes::to_string(renderer.expansion());
   (a.json ? print_json : print_text)(measured, device.info().name, used, job.scene.particle_count());
 }

@@ -10,7 +10,9 @@ namespace {
 Exit run(const SceneArguments& a) {
   Diagnostics diagnostics;
   const Job job = load_job(job_request(a), diagnostics);
-  if (!diagnostics.has_errors()) (void)ready_graph(job.graph, diagnostics);
+  std::optional<ReadyGraph> graph;
+  if (!diagnostics.has_errors()) graph = ready_graph(job.graph, diagnostics);
+  if (graph) warn_of_graph(job, *graph, diagnostics);
   print(diagnostics);
   if (diagnostics.has_errors()) return exit_of(diagnostics);
   fmt::print("{}: no errors, {} particles, graph '{}'\n", job.desc.name, job.scene.particle_count(), job.graph.graph);

@@ -103,6 +103,7 @@ CompareInput reference_like(const CompareInput& like, const CompareArguments& a)
   ReferenceOptions options;
   options.normals = !like.normal.empty();
   options.colors = !like.color.empty();
+  options.two_surfaces = !has_front_surfaces_only(job.graph);
   ReferencePicture traced = render_reference(job.scene, job.view(), options);
   CompareInput out;
   out.name = "the reference of " + a.reference;
@@ -111,7 +112,7 @@ CompareInput reference_like(const CompareInput& like, const CompareArguments& a)
   out.encoding = compare::Encoding::Linear;
   out.depth = std::move(traced.depth);
   out.id = std::move(traced.id);
-  out.ambiguous = std::move(traced.ambiguous);
+  out.ambiguous = traced.layers_ambiguous.empty() ? std::move(traced.ambiguous) : std::move(traced.layers_ambiguous);
   out.projected_radius = std::move(traced.projected_radius);
   for (const glm::dvec3& n : traced.normal) out.normal.emplace_back(n);
   for (const glm::dvec4& c : traced.color) out.color.emplace_back(c);

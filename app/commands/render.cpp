@@ -133,6 +133,7 @@ void run(const RenderArguments& a) {
   const Job job = load_job(request, diagnostics);
   std::optional<ReadyGraph> graph;
   if (!a.reference && !diagnostics.has_errors()) graph = ready_graph(job.graph, diagnostics);
+  if (graph) warn_of_graph(job, *graph, diagnostics);
   print_and_stop_on_errors(diagnostics);
   if (a.reference) return render_reference_picture(a, outputs, job);
 
@@ -141,6 +142,7 @@ void run(const RenderArguments& a) {
   FrameRenderer renderer(*device, std::move(*graph), config, a.device.display, expansion);
   renderer.set_scene(job.scene);
   renderer.wait(renderer.draw(job.view()));
+  print(renderer.report());
   const DrawnPicture picture = renderer.read();
   // How far a baked view transform is from the exact one is measured when it is made; say so.
   if (renderer.display_text().find("baked") != std::string::npos) fmt::print(stderr, "mote: {}\n", renderer.display_text());

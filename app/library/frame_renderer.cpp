@@ -48,6 +48,10 @@ gpu::Submission FrameRenderer::draw(const View& view) {
 void FrameRenderer::wait(gpu::Submission submission) {
   device_.device().queue().wait(submission);
   device_.check();
+  Diagnostics said;
+  executor_.report(said);
+  for (const Diagnostic& d : said.list())
+    if (!report_.has(d.code)) report_.add(d);
 }
 
 passes::Expansion FrameRenderer::expansion() const {

@@ -39,6 +39,8 @@ public:
   // Records and submits a frame. Throws Failure when a pass or the device reports an error.
   gpu::Submission draw(const View& view);
   void wait(gpu::Submission submission);
+  // What the frames waited for lacked (memory that overflowed, ...), each message once.
+  const Diagnostics& report() const { return report_; }
   // What the last frame gave: the output, and whatever the graph was asked for. Waits.
   DrawnPicture read();
   // One texture or buffer of the graph, to .npy, or to .exr if it is a color or a number a pixel.
@@ -63,6 +65,7 @@ private:
   rg::Executor executor_;
   const Scene* scene_{};
   View view_{};
+  Diagnostics report_{};
 };
 
 } // namespace mote::app

@@ -149,6 +149,20 @@ std::optional<ReadyGraph> ready_graph(const GraphRequest& request, Diagnostics& 
   return ready;
 }
 
+bool has_front_surfaces_only(const GraphRequest& request) {
+  Diagnostics ignored;
+  try {
+    rg::GraphDesc graph = load_graph(request, ignored);
+    for (const std::string& setting : request.settings) rg::apply_setting(graph, setting, ignored);
+    for (const rg::PassDesc& pass : graph.passes)
+      if (const rg::Entry* surfaces = pass.kind.text == "sorted_glyphs" ? rg::find(pass.params, "surfaces") : nullptr)
+        if (const auto* word = std::get_if<std::string>(&surfaces->value.data)) return *word == "front";
+  } catch (const Failure&) {
+    // the reference needs no graph
+  }
+  return false;
+}
+
 std::string_view first_word(std::string_view setting) { return setting.substr(0, setting.find_first_of(".[=")); }
 
 Settings split_settings(std::span<const std::string> settings) {

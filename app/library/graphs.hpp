@@ -50,6 +50,10 @@ rg::GraphDesc load_graph(const GraphRequest& request, Diagnostics& diagnostics);
 // Nothing when `diagnostics` then has errors.
 std::optional<ReadyGraph> ready_graph(const GraphRequest& request, Diagnostics& diagnostics);
 
+// Whether transparent particles have one surface in this graph (`surfaces = "front"` of its sorted_glyphs pass); false
+// where there is no such graph or pass.
+bool has_front_surfaces_only(const GraphRequest& request);
+
 // All kinds that mote has.
 const rg::Registry& registry();
 

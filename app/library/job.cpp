@@ -2,6 +2,7 @@
 #include "app/library/job.hpp"
 
 #include "app/codes.hpp"
+#include "passes/particles/selection.hpp"
 
 #include <fmt/format.h>
 
@@ -12,10 +13,6 @@ namespace {
 
 // What the scene asks for and no pass draws yet. The list shrinks with every pass kind that is added.
 void warn_of_limits(const SceneDesc& desc, Diagnostics& diagnostics) {
-  for (std::size_t i = 0; i < desc.data.size(); ++i)
-    if (desc.data[i].alpha < 1.0)
-      diagnostics.warning(code::alpha_ignored, desc.data[i].loc,
-                          fmt::format("data[{}].alpha is {}: transparent particles are drawn opaque by this version", i, desc.data[i].alpha));
   for (const Light& light : desc.lights)
     if (light.shadows)
       diagnostics.warning(code::shadows_ignored, {desc.name}, fmt::format("the light '{}' asks for shadows: this version draws none", light.name));
@@ -23,6 +20,8 @@ void warn_of_limits(const SceneDesc& desc, Diagnostics& diagnostics) {
     diagnostics.warning(code::tolerance_ignored, desc.tolerance->loc,
                         "the tolerance is not used: this version has one method, which is exact at the pixel centers");
 }
+
+bool is_transparent(const Scene& scene) { return std::any_of(scene.batches.begin(), scene.batches.end(), passes::may_be_transparent); }
 
 void check_ids(const JobRequest& request, const Scene& scene, Diagnostics& diagnostics) {
   const bool wanted = request.every_aov || std::find(request.aovs.begin(), request.aovs.end(), Aov::Id) != request.aovs.end();
@@ -59,10 +58,18 @@ Job load_job(const JobRequest& request, Diagnostics& diagnostics) {
   job.graph.deep = request.deep;
   if (diagnostics.has_errors()) return job;
   job.scene = realize(job.desc, request.size, diagnostics);
+  if (!request.graph && !job.desc.graph && is_transparent(job.scene)) job.graph.graph = "transparent";
   if (request.transparent) job.scene.background.a = 0.0;
   warn_of_limits(job.desc, diagnostics);
   check_ids(request, job.scene, diagnostics);
   return job;
+}
+
+void warn_of_graph(const Job& job, const ReadyGraph& graph, Diagnostics& diagnostics) {
+  const auto draws_them = [](const rg::PlannedPass& pass) { return pass.kind == "sorted_glyphs"; };
+  if (std::any_of(graph.plan.passes.begin(), graph.plan.passes.end(), draws_them) || !is_transparent(job.scene)) return;
+  diagnostics.warning(code::alpha_ignored, job.graph.loc, fmt::format("the graph '{}' has no pass for transparent particles: they are left out", job.graph.graph),
+                      {"a pass of kind sorted_glyphs draws them; the shipped graph 'transparent' has one"});
 }
 
 Exit exit_of(const Diagnostics& diagnostics) {

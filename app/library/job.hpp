@@ -30,8 +30,11 @@ struct Job {
   [[nodiscard]] View view_of(const Camera& camera) const { return make_view(camera, size, scene.bounds.diagonal()); }
 };
 
-// With errors in `diagnostics` the job must not be run.
+// With errors in `diagnostics` the job must not be run. Where no graph is named and a particle is transparent, the graph
+// is "transparent".
 Job load_job(const JobRequest& request, Diagnostics& diagnostics);
+// What the scene asks for and the graph does not draw (A020).
+void warn_of_graph(const Job& job, const ReadyGraph& graph, Diagnostics& diagnostics);
 // The particles of a generated scene or of files; the scene's own description otherwise. Throws as describe() does.
 SceneDesc describe_job(const JobRequest& request, Diagnostics& diagnostics, GraphRequest& graph);
 

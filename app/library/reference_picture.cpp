@@ -15,6 +15,7 @@ DrawnPicture draw_reference(const Job& job, const ColorConfig& config, const Dis
   options.ids = wanted(Aov::Id);
   options.normals = wanted(Aov::Normal);
   options.ambiguity = false;
+  options.two_surfaces = !has_front_surfaces_only(job.graph);
   const ReferencePicture traced = render_reference(job.scene, job.view(), options);
 
   DrawnPicture picture;

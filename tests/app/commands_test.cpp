@@ -15,6 +15,7 @@ namespace mote::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using nlohmann::json;
 
 class Commands : public CommandTest {
@@ -169,11 +170,14 @@ TEST_F(Commands, GraphsArePrinted) {
 TEST_F(Commands, WhatIsAskedForAndNotDrawnIsSaid) {
   write("a.csv", "x,y,z\n0,0,0\n1,0,0\n");
   write("s.toml", "schema = 1\n[[light]]\nname = \"sun\"\nkind = \"directional\"\ndirection = [0, 0, -1]\nshadows = true\n[[data]]\nfile = \"a.csv\"\nalpha = 0.5\n");
-  const Ran ran = mote("check s.toml");
+  const Ran ran = mote("check s.toml --graph default");
   EXPECT_EQ(ran.exit, 0);
   EXPECT_THAT(ran.err, HasSubstr("warning A020"));
   EXPECT_THAT(ran.err, HasSubstr("warning A021"));
   EXPECT_THAT(ran.out, HasSubstr("no errors, 2 particles"));
+  const Ran transparent = mote("check s.toml"); // takes the graph that draws them
+  EXPECT_THAT(transparent.err, Not(HasSubstr("A020")));
+  EXPECT_THAT(transparent.out, HasSubstr("graph 'transparent'"));
 }
 
 // A baked view transform says how far it is from the exact one; an exact one has nothing to say.
