@@ -92,7 +92,11 @@ private:
     if (!tiles_) tiles_ = std::make_unique<TileRenderer>(context.device(), pipelines_->frame_layout());
     if (tiled_.chunks.empty()) return false;
     tiles_->update(tiled_, view.size.width, view.size.height);
-    ParticlePipelineKey key = key_for(scene, view, scene.batches.front());
+    bool mixed = false;
+    ParticlePipelineKey key = key_for_all(scene, view, mixed);
+    if (mixed)
+      fail(Exit::Failed, "P001", {}, "expansion 'compute' draws with one specular model a pass; this scene has Phong and Blinn-Phong materials",
+           {"--expansion vertex or geometry can"});
     key.aovs = aovs_;
     const bool draw_on = !tiled_.rest.draws.empty();
     TileTargets targets{.color = context.whole_texture("color"),

@@ -216,7 +216,8 @@ PlacedView ParticleStore::place(const Scene& scene, const View& view, std::uint3
 
 namespace {
 TileDraw tile_draw(const Batch& batch, std::size_t instance, const View& view, std::vector<glm::vec4>& materials) {
-  const BatchBlock block = block_of({.batch = &batch, .instance = instance}, view);
+  BatchBlock block = block_of({.batch = &batch, .instance = instance}, view);
+  if (batch.material.model == ShadingModel::Lambert) block.material.z = 0.0f; // another batch may have highlights
   const auto known = std::find(materials.begin(), materials.end(), block.material);
   const auto material = static_cast<std::uint32_t>(known - materials.begin());
   if (known == materials.end()) materials.push_back(block.material);

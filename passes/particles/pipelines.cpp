@@ -46,6 +46,19 @@ std::vector<gpu::SpecializationConstant> particle_constants(const ParticlePipeli
           gpu::spec(21, key.states.blend != 0), gpu::spec(22, static_cast<std::uint32_t>(key.states.cull))};
 }
 
+ParticlePipelineKey key_for_all(const Scene& scene, const View& view, bool& mixed) {
+  ParticlePipelineKey all = key_for(scene, view, scene.batches.front());
+  mixed = false;
+  for (const Batch& batch : scene.batches) {
+    const ParticlePipelineKey own = key_for(scene, view, batch);
+    mixed = mixed || (all.specular_model != 0 && own.specular_model != 0 && all.specular_model != own.specular_model);
+    all.specular_model = std::max(all.specular_model, own.specular_model);
+    all.per_particle_color = all.per_particle_color || own.per_particle_color;
+    all.head_light_only = all.head_light_only && own.head_light_only;
+  }
+  return all;
+}
+
 ParticlePipelines::ParticlePipelines(gpu::Device device, const gpu::BindGroupLayout& particles) : device_(std::move(device)) {
   const bool geometry = gpu::has(device_.features(), gpu::Feature::GeometryShader);
   const std::array entries{gpu::BindGroupLayoutEntry{

@@ -47,6 +47,10 @@ ParticlePipelineKey key_for(const Scene& scene, const View& view, const Batch& b
 // The specialization constants that all stages of particle shaders know.
 std::vector<gpu::SpecializationConstant> particle_constants(const ParticlePipelineKey& key);
 
+// The same for all batches of a scene at once, as the tiles need it: the widest of what any of them needs. Phong and
+// Blinn-Phong in one scene are beyond it: then `mixed` is set.
+ParticlePipelineKey key_for_all(const Scene& scene, const View& view, bool& mixed);
+
 class ParticlePipelines {
 public:
   // Sets: 0 the frame block, 1 the particles (ParticleStore::layout()).
