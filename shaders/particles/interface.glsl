@@ -13,6 +13,7 @@
 //
 // and for the tiles of the compute expansion (TILES), where one particle is tested against many pixels:
 //
+//   Proxy tile_proxy(Particle)                       as proxy(), of particles wholly before the eye and the near plane
 //   struct TileTest { vec4 a, b, c; }                what the test needs, formed once a particle and tile
 //   TileTest tile_test(Particle, bool alive)         not alive: no ray meets it
 //   bool tile_nearer(TileTest, float x, float y, inout float key)   does the entry at the ray (x, y, 1) lie before

@@ -12,6 +12,7 @@
 #include <compare>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace mote::passes {
@@ -32,7 +33,7 @@ public:
   [[nodiscard]] static std::uint32_t lanes(const gpu::Device& device);
 
   [[nodiscard]] const gpu::ComputePipeline& kernel(const std::string& name); // "cull", "allocate", "scatter", "far"
-  [[nodiscard]] const gpu::ComputePipeline& place(const ParticlePipelineKey& key, bool first_round);
+  [[nodiscard]] const gpu::ComputePipeline& place(const ParticlePipelineKey& key, bool first_round, bool first_slice);
   // `map`: the one that key.pixel_map names, or null. Its shader is compiled now (P002) or comes from the cache.
   [[nodiscard]] const gpu::ComputePipeline& cast(const CastKey& key, const rg::PixelMap* map, const std::string& cache_directory);
   [[nodiscard]] const gpu::BindGroupLayout& slice_layout() const { return slice_; }
@@ -48,7 +49,7 @@ private:
   gpu::BindGroupLayout frame_, slice_, binning_, cast_;
   gpu::PipelineLayout binning_pipelines_, cast_pipelines_;
   std::map<std::string, gpu::ComputePipeline> kernels_;
-  std::map<std::pair<ParticlePipelineKey, bool>, gpu::ComputePipeline> places_;
+  std::map<std::tuple<ParticlePipelineKey, bool, bool>, gpu::ComputePipeline> places_;
   std::map<CastKey, gpu::ComputePipeline> casts_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "passes/particles/tiles/tile_placement.hpp"
 
+#include "core/scene/parallel.hpp"
+
 #include <cmath>
 
 namespace mote::passes {
@@ -69,14 +71,14 @@ void add_near(const ChunkSet& set, std::uint64_t chunk, const ChunkPlacer& place
 
 } // namespace
 
-void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance, const View& view,
-                     const ViewCuller& culler, std::uint32_t draw, PlacedForTiles& out) {
-  const ChunkPlacer placer(instance, view, culler);
-  const TileRects rects(view);
+namespace {
+
+void place_range(const ChunkSet& set, std::uint64_t first, std::uint64_t begin, std::uint64_t end, const ChunkPlacer& placer, const TileRects& rects,
+                 std::uint32_t draw, PlacedForTiles& out) {
   PlacedBox box;
   TileChunk tiled;
   tiled.draw = draw;
-  for (std::uint64_t i = 0; i < count; ++i) {
+  for (std::uint64_t i = begin; i < end; ++i) {
     if (!placer.place(set.chunks[first + i], box)) continue;
     bool any = false;
     const double radius = placer.scale() * double{set.chunks[first + i].max_radius};
@@ -89,6 +91,39 @@ void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t cou
       out.tiled.push_back(tiled);
     }
   }
+}
+
+template <class T> void append(std::vector<T>& to, const std::vector<T>& from) { to.insert(to.end(), from.begin(), from.end()); }
+
+void append(PlacedForTiles& to, PlacedForTiles& from) {
+  const auto before = static_cast<std::uint32_t>(to.near_records.size() / chunk_capacity);
+  for (TileChunk& chunk : from.near) chunk.chunk += before;
+  append(to.tiled, from.tiled);
+  append(to.rest.far, from.rest.far);
+  append(to.rest.near, from.rest.near);
+  append(to.rest.payloads, from.rest.payloads);
+  append(to.near, from.near);
+  append(to.near_records, from.near_records);
+  append(to.near_rows, from.near_rows);
+  append(to.near_colors, from.near_colors);
+}
+
+constexpr std::uint64_t chunks_per_thread = 4096;
+
+} // namespace
+
+void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance, const View& view,
+                     const ViewCuller& culler, std::uint32_t draw, PlacedForTiles& out) {
+  const ChunkPlacer placer(instance, view, culler);
+  const TileRects rects(view);
+  const std::uint32_t parts = thread_count(count, chunks_per_thread);
+  if (parts == 1) return place_range(set, first, 0, count, placer, rects, draw, out);
+  std::vector<PlacedForTiles> own(parts);
+  parallel_parts(count, parts, [&](std::uint32_t part, std::uint64_t begin, std::uint64_t end) {
+    own[part].tiled.reserve(end - begin);
+    place_range(set, first, begin, end, placer, rects, draw, own[part]);
+  });
+  for (PlacedForTiles& part : own) append(out, part);
 }
 
 } // namespace mote::passes

@@ -179,7 +179,7 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
     block.round = round;
     gpu::ComputePass place = encoder.begin_compute_pass({.label = "tiles.place"});
     for (block.slice = 0; block.slice < slices; ++block.slice) {
-      begin(place, kernels_.place(key.drawing, key.first_round && round == 0));
+      begin(place, kernels_.place(key.drawing, key.first_round && round == 0, block.slice == 0));
       place.dispatch_indirect(buffers_.indirect, offset(round, block.slice));
     }
     block.slice = 0;

@@ -13,6 +13,7 @@ layout(local_size_x = 64) in;
 
 layout(constant_id = 11) const bool want_ids = false;
 layout(constant_id = 12) const bool first_round = false; // nothing was cast before in this frame
+layout(constant_id = 17) const bool first_slice = false;
 
 layout(std430, set = 1, binding = 0) readonly buffer Records { PAIR records[]; };
 layout(std430, set = 1, binding = 1) readonly buffer Rows { uint rows[]; };
@@ -32,6 +33,7 @@ layout(std430, set = 1, binding = 2) readonly buffer FileColors { uint colors[];
 // Chunks of the same round in earlier slices: their particles come first.
 uint chunks_before() {
   uint before = 0u;
+  if (first_slice) return before;
   for (uint s = 0u; s < step.slice; ++s) before += arguments[slice_arguments(step.round, s)];
   return before;
 }
@@ -83,7 +85,7 @@ void main() {
   placed_colors[at] = pair(uvec2(packHalf2x16(color.rg), (packHalf2x16(vec2(color.b, 0.0)) & 0xFFFFu) | material << 16));
   if (want_ids) placed_ids[at] = id_base + rows[slot];
 
-  Proxy bounds = proxy(particle);
+  Proxy bounds = tile_proxy(particle);
   uvec4 rect = tile_rect(bounds);
   // What was reserved is the chunk's rectangle; rounding never leads out of it.
   uvec2 lo = max(rect.xy, rect_lo), hi = min(rect.zw, rect_hi);
