@@ -44,7 +44,7 @@ CompileResult compile(const GraphDesc& graph, const Registry& registry, const Co
 
 CompileResult compile_file(const std::string& path, const Registry& registry, const CompileOptions& options, const std::vector<std::string>& settings) {
   Diagnostics found;
-  GraphDesc graph = load_graph(path, found);
+  GraphDesc graph = load_graph(path, found, {.settings = settings});
   if (graph.passes.empty() && found.has_errors()) return {std::nullopt, {}, found}; // nothing to go on with
   for (const std::string& setting : settings) apply_setting(graph, setting, found);
   return compile(graph, registry, options, found);

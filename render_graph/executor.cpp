@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace mote::rg {
@@ -122,10 +123,16 @@ std::vector<std::string> pass_names(const Plan& plan) {
 }
 } // namespace
 
-Executor::Executor(gpu::Device device, Plan plan, std::vector<std::shared_ptr<Pass>> passes)
+bool ExecutorOptions::validation_asked() {
+  const char* variable = std::getenv("MOTE_VALIDATION");
+  return variable != nullptr && std::string_view(variable) == "1";
+}
+
+Executor::Executor(gpu::Device device, Plan plan, std::vector<std::shared_ptr<Pass>> passes, const ExecutorOptions& options)
     : device_(std::move(device)), plan_(std::move(plan)), passes_(std::move(passes)), resources_(device_, plan_), profiler_(device_, pass_names(plan_)) {
   if (passes_.size() != plan_.passes.size()) throw std::logic_error("an executor needs one pass object per planned pass");
   for (std::size_t i = 0; i < passes_.size(); ++i) contexts_.push_back(std::make_unique<Context>(*this, i));
+  if (options.check_uses) check_.emplace(plan_);
 }
 Executor::~Executor() = default;
 
@@ -182,6 +189,7 @@ void Executor::record_pass(std::size_t i, const FrameInput& frame, gpu::CommandE
   encoder.push_debug_group(plan_.passes[i].name);
   const auto& uses = plan_.passes[i].uses;
   const bool draws = !passes_[i]->opens_attachments() && std::any_of(uses.begin(), uses.end(), [](const Use& use) { return is_attachment(use.access); });
+  const std::size_t first_scope = gpu::scope_count(encoder);
   contexts_[i]->set(&frame, &encoder, nullptr);
   if (draws) {
     passes_[i]->update(*contexts_[i]);
@@ -190,8 +198,16 @@ void Executor::record_pass(std::size_t i, const FrameInput& frame, gpu::CommandE
     passes_[i]->record(*contexts_[i]);
   }
   contexts_[i]->set(nullptr, nullptr, nullptr);
+  if (check_) check_uses(i, encoder, first_scope);
   encoder.pop_debug_group();
   profiler_.end_pass(encoder);
+}
+
+void Executor::check_uses(std::size_t i, const gpu::CommandEncoder& encoder, std::size_t first_scope) {
+  std::vector<SeenUse> seen;
+  for (const gpu::Observed& observed : gpu::observe(encoder, first_scope))
+    if (const auto physical = resources_.find(observed.buffer, observed.native)) seen.push_back({observed.buffer, *physical, observed.use});
+  check_->recorded(i, seen, i + 1 < taken_over_.size() && taken_over_[i + 1] == plan_.passes[i].name);
 }
 
 gpu::RenderPass Executor::open(std::size_t i, const FrameInput& frame, gpu::CommandEncoder& encoder, bool loaded) {

@@ -8,6 +8,7 @@
 #include "render_graph/slots.hpp"
 #include "render_graph/value.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -55,14 +56,27 @@ struct Source { std::string pass{}, slot{}; };
 std::optional<Source> split_source(std::string_view text);
 bool valid_name(std::string_view text); // [a-z][a-z0-9_]*
 
-// The text of a graph file. All problems go to `diagnostics` (G001..G009, G040, G043); what could be
-// understood is returned, so that the compiler can report the rest together with them.
-GraphDesc parse_graph(std::string_view toml, const std::string& file, Diagnostics& diagnostics);
-// The same from a file (G007 if it cannot be read).
-GraphDesc load_graph(const std::string& path, Diagnostics& diagnostics);
+struct GraphText {
+  std::string file{}, text{};
+};
+// A file relative to the folder of the file `from`.
+std::optional<GraphText> read_beside(const std::string& name, const std::string& from);
 
-// "pass.param=value", "pass.table.key=value" or "pass.enabled=false": what --set says. The value is
-// TOML, or else a string. G008 malformed, G026 no such pass; unknown parameters are found by compile().
+struct ParseOptions {
+  // What `include` reads: `name` as written in the file `from`. Default: read_beside().
+  std::function<std::optional<GraphText>(const std::string& name, const std::string& from)> read{};
+  std::vector<std::string> settings{}; // of which "variables.NAME=VALUE" count here
+};
+
+// The text of a graph file, with what it includes (include.hpp). All problems go to `diagnostics` (G001..G009,
+// G027..G029, G040, G043); what could be understood is returned, so that the compiler can report the rest together
+// with them.
+GraphDesc parse_graph(std::string_view toml, const std::string& file, Diagnostics& diagnostics, const ParseOptions& options = {});
+// The same from a file (G007 if it cannot be read).
+GraphDesc load_graph(const std::string& path, Diagnostics& diagnostics, const ParseOptions& options = {});
+
+// "pass.param=value", "pass.table.key=value" or "pass.enabled=false": what --set says (settings of variables are
+// passed over: parse_graph() has taken them). The value is TOML, or else a string. G008 malformed, G026 no such pass; unknown parameters are found by compile().
 void apply_setting(GraphDesc& graph, std::string_view assignment, Diagnostics& diagnostics);
 
 } // namespace mote::rg

@@ -2,6 +2,7 @@
 // TOML values -> GraphDesc. One small reader per level of the file; each reports every unknown key.
 #include "core/gpu/format.hpp"
 #include "render_graph/graph_desc.hpp"
+#include "render_graph/include.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +10,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace mote::rg {
 namespace {
@@ -141,16 +140,17 @@ OutputDesc parse_output(const Entry& entry, const std::string& where, Diagnostic
   return out;
 }
 
-// draw = ["a", "b"], or draw = { list = ["a"], other = ["b"] }
+// draw = "a", draw = ["a", "b"], or draw = { list = ["a"], other = ["b"] }
 std::vector<DrawList> parse_draw(const Value& value, const std::string& where, Diagnostics& diagnostics) {
   std::vector<DrawList> out;
   auto add = [&](std::string name, const Value& list) {
     DrawList draw{std::move(name), list.loc, {}};
     const auto* array = std::get_if<Array>(&list.data);
-    for (const Value& item : array ? *array : Array{})
+    const Array single{list};
+    for (const Value& item : array ? *array : single)
       if (const auto* text = std::get_if<std::string>(&item.data)) draw.items.push_back({*text, item.loc});
-    if (!array || draw.items.size() != array->size())
-      diagnostics.error("G004", list.loc, fmt::format("{} 'draw' must be an array of strings, or a table of such arrays.", where));
+    if (draw.items.size() != (array ? array->size() : 1))
+      diagnostics.error("G004", list.loc, fmt::format("{} 'draw' must be a string, an array of strings, or a table of those.", where));
     out.push_back(std::move(draw));
   };
   if (const auto* table = std::get_if<Table>(&value.data))
@@ -217,11 +217,11 @@ std::optional<Source> split_source(std::string_view text) {
   return out;
 }
 
-GraphDesc parse_graph(std::string_view toml, const std::string& file, Diagnostics& diagnostics) {
+GraphDesc parse_graph(std::string_view toml, const std::string& file, Diagnostics& diagnostics, const ParseOptions& options) {
   GraphDesc graph{.file = file};
   graph.name.text = std::filesystem::path(file).stem().string();
   const std::size_t before = diagnostics.list().size();
-  const Table table = parse_toml_text(toml, file, diagnostics);
+  const Table table = assemble_graph(toml, file, options, diagnostics);
   if (table.empty() && diagnostics.list().size() > before) return graph; // the syntax error says it all
   const SourceLoc top{file, 1, 1};
   Reader reader(table, top, "the graph", diagnostics);
@@ -230,6 +230,8 @@ GraphDesc parse_graph(std::string_view toml, const std::string& file, Diagnostic
     if (!number || *number != 1)
       diagnostics.error("G002", schema->loc, fmt::format("'schema' is {}, but this program reads schema 1.", to_text(*schema)));
   } else diagnostics.error("G002", top, "'schema' is missing.", {"the first line of a graph file is: schema = 1"});
+  (void)reader.value("include"); // has been read
+  (void)reader.value("variables");
   if (auto name = reader.string("name")) graph.name = *name;
   graph.output = reader.required("output");
   parse_passes(graph, reader.value("pass"), top, diagnostics);
@@ -237,18 +239,14 @@ GraphDesc parse_graph(std::string_view toml, const std::string& file, Diagnostic
   return graph;
 }
 
-GraphDesc load_graph(const std::string& path, Diagnostics& diagnostics) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in || text.bad() || std::filesystem::is_directory(path)) {
-    diagnostics.error("G007", {path}, fmt::format("the graph file '{}' cannot be read.", path));
-    return {.file = path};
-  }
-  return parse_graph(text.str(), path, diagnostics);
+GraphDesc load_graph(const std::string& path, Diagnostics& diagnostics, const ParseOptions& options) {
+  if (const auto found = read_beside(path, {})) return parse_graph(found->text, path, diagnostics, options);
+  diagnostics.error("G007", {path}, fmt::format("the graph file '{}' cannot be read.", path));
+  return {.file = path};
 }
 
 void apply_setting(GraphDesc& graph, std::string_view assignment, Diagnostics& diagnostics) {
+  if (sets_variable(assignment)) return;
   const SourceLoc place{"--set"};
   const auto equals = assignment.find('=');
   std::vector<std::string> path(1);

@@ -36,6 +36,8 @@ std::vector<KindInfo> describe(const Registry& registry);
 
 std::string kinds_text(const Registry& registry);
 std::string kinds_json(const Registry& registry); // {"kinds": [{"name", "summary", "draws", "inputs", "outputs", "params"}]}
+// JSON schema of graph files (draft 7), for editors.
+std::string graph_schema(const Registry& registry);
 
 std::string to_text(const SizeSpec& size);         // "view", "view*0.5", "640x480", "like a.b"
 std::string to_text(const ResourceSpec& resource); // "rgba16float view", "buffer 16 bytes x 100"

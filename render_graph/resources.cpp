@@ -2,6 +2,7 @@
 #include "render_graph/resources.hpp"
 
 #include "core/gpu/format.hpp"
+#include "core/gpu/observe.hpp"
 
 #include <fmt/format.h>
 
@@ -97,6 +98,15 @@ void Resources::make_views() {
     for (const Use& use : pass.uses)
       views.push_back(use.buffer ? gpu::TextureView{} : texture(use.resource).create_view(view_of(use, plan_.textures[use.resource].spec)));
   }
+}
+
+std::optional<std::uint32_t> Resources::find(bool buffer, std::uint64_t native) const {
+  const auto look = [native](const auto& resources) -> std::optional<std::uint32_t> {
+    for (std::size_t i = 0; i < resources.size(); ++i)
+      if (gpu::native_id(resources[i]) == native) return static_cast<std::uint32_t>(i);
+    return std::nullopt;
+  };
+  return buffer ? look(buffers_) : look(textures_);
 }
 
 void Resources::mark_state(bool fresh) {

@@ -7,6 +7,7 @@
 #include "render_graph/pass.hpp"
 #include "render_graph/plan.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace mote::rg {
@@ -22,6 +23,8 @@ public:
   [[nodiscard]] const gpu::Texture& texture(std::uint32_t i) const { return textures_[plan_.textures[i].physical]; }
   [[nodiscard]] const gpu::Buffer& buffer(std::uint32_t i) const { return buffers_[plan_.buffers[i].physical]; }
   [[nodiscard]] const gpu::TextureView& view(std::size_t pass, std::size_t use) const { return views_[pass][use]; } // invalid for buffers
+  // The physical number of a resource of the graph by its gpu::native_id(); nothing for a resource of somebody else.
+  [[nodiscard]] std::optional<std::uint32_t> find(bool buffer, std::uint64_t native) const;
   // State: which textures and buffers hold an earlier frame.
   [[nodiscard]] bool fresh(const Use& use) const { return use.buffer ? fresh_buffers_[use.resource] : fresh_textures_[use.resource]; }
   void reset_state(); // all of it is fresh again

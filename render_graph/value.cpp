@@ -1,50 +1,42 @@
 // SPDX-License-Identifier: MIT
 #include "render_graph/value.hpp"
 
+#include "core/toml/node.hpp"
+
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
-#include <tuple>
 
 namespace mote::rg {
 namespace {
 
-struct Converter {
-  const std::string& file;
-  Diagnostics& diagnostics;
+// From the located tree that scene files are read through, too.
+Table table_of(const config::Node& node, Diagnostics& diagnostics);
 
-  [[nodiscard]] SourceLoc loc(const toml::source_region& region) const {
-    return {file, region.begin.line, region.begin.column};
+std::optional<Value> value_of(const config::Node& node, Diagnostics& diagnostics) {
+  switch (node.kind) {
+  case config::Kind::Boolean: return Value{node.loc, node.boolean};
+  case config::Kind::Integer: return Value{node.loc, node.integer};
+  case config::Kind::Real: return Value{node.loc, node.real};
+  case config::Kind::Text: return Value{node.loc, node.text};
+  case config::Kind::Table: return Value{node.loc, table_of(node, diagnostics)};
+  case config::Kind::Time:
+    diagnostics.error("G004", node.loc, "dates and times mean nothing here.", {"write it as a string, in quotes."});
+    return std::nullopt;
+  case config::Kind::Array: break;
   }
-  [[nodiscard]] Table table(const toml::table& from) {
-    Table out;
-    for (const auto& [key, node] : from)
-      if (auto value = convert(node)) out.push_back({std::string(key.str()), loc(key.source()), std::move(*value)});
-    std::stable_sort(out.begin(), out.end(), [](const Entry& a, const Entry& b) {
-      return std::tie(a.key_loc.line, a.key_loc.column) < std::tie(b.key_loc.line, b.key_loc.column);
-    });
-    return out;
-  }
-  [[nodiscard]] std::optional<Value> convert(const toml::node& node) {
-    Value value{loc(node.source()), {}};
-    if (const auto* t = node.as_table()) value.data = table(*t);
-    else if (const auto* a = node.as_array()) {
-      Array items;
-      for (const toml::node& item : *a)
-        if (auto v = convert(item)) items.push_back(std::move(*v));
-      value.data = std::move(items);
-    } else if (const auto* b = node.as_boolean()) value.data = b->get();
-    else if (const auto* i = node.as_integer()) value.data = i->get();
-    else if (const auto* f = node.as_floating_point()) value.data = f->get();
-    else if (const auto* s = node.as_string()) value.data = s->get();
-    else {
-      diagnostics.error("G004", value.loc, "dates and times mean nothing here.", {"write it as a string, in quotes."});
-      return std::nullopt;
-    }
-    return value;
-  }
-};
+  Array items;
+  for (const config::Node& item : node.items)
+    if (auto value = value_of(item, diagnostics)) items.push_back(std::move(*value));
+  return Value{node.loc, std::move(items)};
+}
+
+Table table_of(const config::Node& node, Diagnostics& diagnostics) {
+  Table out;
+  for (const config::Member& member : node.members)
+    if (auto value = value_of(member.value, diagnostics)) out.push_back({member.key, member.loc, std::move(*value)});
+  return out;
+}
 
 void relocate(Value& value, const SourceLoc& loc) {
   value.loc = loc;
@@ -96,11 +88,12 @@ std::vector<std::string> keys_of(const Table& table) {
 }
 
 Table parse_toml_text(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
-  Converter converter{file, diagnostics};
   try {
-    return converter.table(toml::parse(text, file));
-  } catch (const toml::parse_error& error) {
-    diagnostics.error("G001", converter.loc(error.source()), fmt::format("not valid TOML: {}.", error.description()));
+    return table_of(config::parse(text, file, "G001"), diagnostics);
+  } catch (const Failure& failure) {
+    Diagnostic syntax = failure.diagnostic();
+    syntax.text = fmt::format("not valid TOML: {}.", syntax.text);
+    diagnostics.add(std::move(syntax));
     return {};
   }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a TOML file says, as plain values that know their place. Tables keep the order of the file.
 //
-// parse_toml_text() is the only place that sees toml++; everything after it (GraphDesc, Params,
-// command-line overrides) works on these values, so that a value from `--set` or, one day, from an
-// included file or a variable is like any other, with a place of its own.
+// core/toml reads the text; everything after it (includes, variables, GraphDesc, Params, command-line
+// overrides) works on these values, so that a value from `--set`, from an included file or from a
+// variable is like any other, with a place of its own.
 #pragma once
 
 #include "core/base/diagnostic.hpp"

@@ -11,7 +11,7 @@ namespace {
 struct GraphArguments {
   std::string graph{"default"};
   std::vector<std::string> settings{};
-  bool check{}, plan{}, dot{}, kinds{}, json{}, strict{};
+  bool check{}, plan{}, dot{}, kinds{}, schema{}, json{}, strict{};
 };
 
 // A graph file or a shipped graph.
@@ -19,6 +19,7 @@ GraphRequest request_of(const GraphArguments& a) {
   GraphRequest request;
   request.graph = a.graph;
   request.loc = {"command line"};
+  request.settings = a.settings;
   return request;
 }
 
@@ -26,6 +27,10 @@ Exit run(const GraphArguments& a) {
   if (a.kinds) {
     fmt::print("{}", a.json ? rg::kinds_json(registry()) : rg::kinds_text(registry()));
     if (!a.json) fmt::print("\n{}", passes::support_matrix());
+    return Exit::Done;
+  }
+  if (a.schema) {
+    fmt::print("{}", rg::graph_schema(registry()));
     return Exit::Done;
   }
   Diagnostics found;
@@ -55,9 +60,11 @@ void add_graph(CLI::App& app, Exit& exit) {
   CLI::Option* plan = command->add_flag("--plan", a->plan, "the passes in order, with what they load, store and share (the default)");
   CLI::Option* dot = command->add_flag("--dot", a->dot, "the same for Graphviz");
   CLI::Option* kinds = command->add_flag("--kinds", a->kinds, "the kinds of passes with their slots and parameters");
-  check->excludes(plan, dot, kinds);
-  plan->excludes(dot, kinds);
-  dot->excludes(kinds);
+  CLI::Option* schema = command->add_flag("--schema", a->schema, "a JSON schema of graph files, for editors");
+  check->excludes(plan, dot, kinds, schema);
+  plan->excludes(dot, kinds, schema);
+  dot->excludes(kinds, schema);
+  kinds->excludes(schema);
   command->add_flag("--json", a->json, "with --kinds: as JSON")->needs(kinds);
   command->add_flag("--strict", a->strict, "passes that nothing needs are errors");
   command->callback([a, &exit] { exit = run(*a); });

@@ -4,6 +4,7 @@
 #include "app/codes.hpp"
 #include "app/library/shipped_graphs.hpp"
 #include "passes/builtin.hpp"
+#include "render_graph/include.hpp"
 
 #include <fmt/format.h>
 
@@ -66,6 +67,7 @@ void check_settings(const GraphRequest& request, const rg::GraphDesc& graph, Dia
   if (passes.empty()) return; // the graph is broken, and that is reported
   for (const std::string& setting : request.settings) {
     const std::string word(first_word(setting));
+    if (rg::sets_variable(setting)) continue; // the graph has been read with it
     if (std::find(passes.begin(), passes.end(), word) != passes.end()) continue;
     std::vector<std::string> all = scene_keys;
     all.insert(all.end(), passes.begin(), passes.end());
@@ -100,12 +102,20 @@ std::vector<std::string> pass_names(const rg::GraphDesc& graph) {
 }
 
 rg::GraphDesc load_graph(const GraphRequest& request, Diagnostics& diagnostics) {
+  rg::ParseOptions options;
+  options.settings = request.settings;
+  options.read = [](const std::string& name, const std::string& from) -> std::optional<rg::GraphText> {
+    if (is_path(name)) return rg::read_beside(name, from);
+    for (const ShippedGraph& graph : shipped_graph_texts())
+      if (graph.name == name) return rg::GraphText{"mote:" + name + ".toml", std::string(graph.text)};
+    return std::nullopt;
+  };
   if (is_path(request.graph)) {
     const std::filesystem::path path(request.graph);
-    return rg::load_graph((path.is_absolute() ? path : request.folder / path).string(), diagnostics);
+    return rg::load_graph((path.is_absolute() ? path : request.folder / path).string(), diagnostics, options);
   }
   for (const ShippedGraph& graph : shipped_graph_texts())
-    if (graph.name == request.graph) return rg::parse_graph(graph.text, std::string(graph.name) + ".toml", diagnostics);
+    if (graph.name == request.graph) return rg::parse_graph(graph.text, std::string(graph.name) + ".toml", diagnostics, options);
   const std::vector<std::string> names = shipped_graphs();
   const bool by_option = request.loc.file.empty() || request.loc.file.starts_with("--");
   fail(by_option ? Exit::Usage : Exit::BadInput, code::shipped_graph, request.loc, fmt::format("there is no shipped graph '{}'", request.graph),

@@ -21,7 +21,7 @@ struct Canonical {
 };
 
 // Spellings of whole groups (extended XYZ, subarrays) and of single fields.
-constexpr std::array<Canonical, 25> canonical_table{{
+constexpr std::array<Canonical, 26> canonical_table{{
     {"position", " pos position positions coordinates coords points xyz ", 3},
     {"velocity", " velo vel velocity velocities v ", 3},
     {"force", " force forces f ", 3},
@@ -34,6 +34,7 @@ constexpr std::array<Canonical, 25> canonical_table{{
     {"orientation", " orientation orientations orient quat quaternion q ", 4},
     {"shape", " shape aspherical_shape ", 3},
     {"color", " color colour rgb ", 3},
+    {"normal", " normal normals normal_vector normal_vectors ", 3},
     {"stress", " stress virial stresses stress_tensor ", 6},
     {"stress", " stress virial stresses stress_tensor ", 9},
     {"id", " id ids particle_id particle_identifier particleid tag atom_id index ", 1},
@@ -54,7 +55,7 @@ struct Part {
   std::string_view group{}, fields{}; // fields in the order of the components
   std::uint32_t components{};
 };
-constexpr std::array<Part, 19> parts{{
+constexpr std::array<Part, 20> parts{{
     {"position", "x y z", 3},
     {"position_scaled", "xs ys zs", 3},
     {"position_unwrapped", "xu yu zu", 3},
@@ -71,6 +72,7 @@ constexpr std::array<Part, 19> parts{{
     {"orientation", "quat_w quat_x quat_y quat_z", 4},
     {"orientation", "orientation_w orientation_x orientation_y orientation_z", 4},
     {"shape", "shapex shapey shapez", 3},
+    {"normal", "nx ny nz", 3},
     {"color", "r g b", 3},
     {"color", "red green blue", 3},
     {"stress", "sxx syy szz sxy sxz syz", 6},
@@ -79,7 +81,7 @@ constexpr std::array<Part, 19> parts{{
 // Quantities that are doubles even where a file happens to hold whole numbers.
 constexpr std::string_view real_quantities =
     " position position_scaled position_unwrapped position_scaled_unwrapped velocity force momentum dipole "
-    "angular_velocity angular_momentum torque orientation shape stress radius diameter mass charge "
+    "angular_velocity angular_momentum torque orientation shape normal stress radius diameter mass charge "
     "transparency ";
 
 bool has_spelling(std::string_view spellings, std::string_view word) {

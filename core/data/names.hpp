@@ -11,6 +11,7 @@
 //   element       1 (text)    a chemical symbol; labels that are none are in `type` (text)
 //   orientation   4           unit quaternion, w x y z (Column::unit says "wxyz")
 //   shape         3           half axes of an ellipsoid
+//   normal        3           of a surface point, as in the file
 //   color         3           as in the file
 //   stress        6 or 9      6: xx yy zz xy xz yz
 //   transparency selection magnetic_moment                   as in the file

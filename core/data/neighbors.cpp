@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/data/neighbors.hpp"
 
-#include "core/data/workers.hpp"
+#include "core/base/parallel.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,11 +2,11 @@
 // NumPy arrays (.npy). Shapes: (N, 3) = x y z, (N, 4) = x y z radius, (T, N, 3) and (T, N, 4) = T frames
 // of them, (N,) of a structured type = columns by the names of its parts. C and Fortran order, all
 // float and integer types, both byte orders; columns are doubles (a structure's integers stay so).
+#include "core/base/parallel.hpp"
 #include "core/data/codes.hpp"
 #include "core/data/names.hpp"
 #include "core/data/npy_header.hpp"
 #include "core/data/registry.hpp"
-#include "core/data/workers.hpp"
 
 #include <fmt/format.h>
 

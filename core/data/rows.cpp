@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/data/rows.hpp"
 
+#include "core/base/parallel.hpp"
 #include "core/data/codes.hpp"
-#include "core/data/workers.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/reference/bvh.hpp"
 
-#include "core/reference/parallel.hpp"
+#include "core/base/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -236,10 +236,10 @@ Bvh build_bvh(std::vector<BvhItem> items, const glm::dvec3& center, const Collap
   }
   for (const Range& r : leaves) main.leaf(r);
   std::vector<Builder> grown(parts.size(), Builder{items, collapse});
-  parallel_for(threads, parts.size(), [&](std::size_t i) {
+  for_each_block(parts.size(), [&](std::size_t i) {
     grown[i].nodes.emplace_back();
     grown[i].grow(Range{parts[i].begin, parts[i].end, 0, 0, parts[i].depth});
-  });
+  }, threads);
   for (std::size_t i = 0; i < parts.size(); ++i) graft(main, parts[i], grown[i]);
   bvh.nodes = std::move(main.nodes);
   bvh.order = std::move(main.order);

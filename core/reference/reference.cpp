@@ -2,9 +2,9 @@
 #include "core/reference/reference.hpp"
 
 #include "core/base/diagnostic.hpp"
+#include "core/base/parallel.hpp"
 #include "core/reference/codes.hpp"
 #include "core/reference/layers.hpp"
-#include "core/reference/parallel.hpp"
 #include "core/reference/shade.hpp"
 #include "core/reference/tracer.hpp"
 
@@ -25,13 +25,13 @@ constexpr std::uint32_t tile = 32; // pixels: neighbors walk the same nodes
 // fn(x, y, index) for every pixel, tile by tile, on several threads.
 template <class Function> void each_pixel(Size2d size, unsigned threads, Function&& fn) {
   const std::uint32_t columns = (size.width + tile - 1) / tile, rows = (size.height + tile - 1) / tile;
-  reference::parallel_for(threads, std::size_t{columns} * rows, [&](std::size_t i) {
+  for_each_block(std::size_t{columns} * rows, [&](std::size_t i) {
     const auto x0 = static_cast<std::uint32_t>(i % columns) * tile,
                y0 = static_cast<std::uint32_t>(i / columns) * tile;
     for (std::uint32_t y = y0; y < std::min(size.height, y0 + tile); ++y)
       for (std::uint32_t x = x0; x < std::min(size.width, x0 + tile); ++x)
         fn(x, y, std::size_t{y} * size.width + x);
-  });
+  }, threads);
 }
 
 void check_ids(const reference::World& world) {

@@ -162,10 +162,9 @@ glm::dvec3 Tracer::normal(const Sample& sample) const {
 double Tracer::projected_radius(const Hit& hit) const {
   const Placed& p = world_.placed[hit.placed];
   const Particle of = particle(*p.tree->chunks, hit.record);
-  if (view_.projection == Projection::Perspective)
-    return view_.focal * of.radius / glm::distance(of.center, seen_[hit.placed].eye); // scales of both cancel
-  return view_.focal * of.radius * std::sqrt(3.0) /
-         p.stretch; // a similarity's Frobenius norm is sqrt(3) times its factor
+  const double radius = view_.focal * of.radius * p.curvature;
+  if (view_.projection == Projection::Orthographic) return radius;
+  return radius / glm::length(p.linear * (of.center - seen_[hit.placed].eye));
 }
 
 bool Tracer::occluded(const Ray& ray, double t_max, std::uint64_t skip_id) const {

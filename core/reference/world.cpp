@@ -2,12 +2,13 @@
 #include "core/reference/world.hpp"
 
 #include "core/base/diagnostic.hpp"
+#include "core/base/parallel.hpp"
 #include "core/reference/codes.hpp"
-#include "core/reference/parallel.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -52,7 +53,7 @@ std::vector<BvhItem> make_items(Tree& tree, const glm::dvec3& center, double alp
   const std::uint64_t records = chunks.record_count();
   std::vector<std::vector<BvhItem>> parts((records + block - 1) / block);
   std::atomic<std::uint64_t> transparent{0};
-  parallel_for(threads, parts.size(), [&](std::size_t part) {
+  for_each_block(parts.size(), [&](std::size_t part) {
     const std::uint64_t end = std::min(records, (part + 1) * block);
     parts[part].reserve(end - part * block);
     for (std::uint64_t i = part * block; i < end; ++i) {
@@ -64,7 +65,7 @@ std::vector<BvhItem> make_items(Tree& tree, const glm::dvec3& center, double alp
       if (is_opaque != of_opaque || (!of_opaque && invisible(chunks, i, alpha))) continue;
       parts[part].push_back(make_item(tree.shape->bounds(p), center, static_cast<std::uint32_t>(i)));
     }
-  });
+  }, threads);
   tree.transparent = transparent;
   std::vector<BvhItem> items;
   std::size_t count = 0;
@@ -122,16 +123,19 @@ Placed place(const Tree& tree, const Scene& scene, std::uint32_t batch, std::siz
   p.tree = &tree;
   p.batch = batch;
   p.first_id = b.id_base + instance * b.row_count;
+  p.linear = linear;
   p.data_from_world = glm::inverse(linear);
   p.normal_to_world = glm::transpose(p.data_from_world);
   p.translation = glm::dvec3(m[3]);
-  double sum = 0.0;
+  double sum = 0.0, forward = 0.0;
   bool good = finite(p.translation);
   for (int k = 0; k < 3; ++k) {
     good = good && finite(p.data_from_world[k]) && finite(linear[k]);
     sum += glm::dot(p.data_from_world[k], p.data_from_world[k]);
+    forward += glm::dot(linear[k], linear[k]);
   }
   p.stretch = std::sqrt(sum); // the Frobenius norm bounds the spectral one
+  p.curvature = 3.0 * std::sqrt(3.0) / (sum * std::sqrt(forward)); // (shortest half axis)^2 / longest, estimated by those norms
   if (!good || sum == 0.0)
     fail(Exit::BadInput, reference_codes::not_affine, {b.name},
          fmt::format("the matrix of instance {} cannot be inverted, so the reference cannot draw it.",

@@ -34,11 +34,13 @@ struct Placed { // one instance of one batch
   const Tree* tree{};
   std::uint32_t batch{};
   std::uint64_t first_id{};      // id of row 0
-  glm::dmat3 data_from_world{1}; // the linear part
+  glm::dmat3 linear{1};          // of world from data
+  glm::dmat3 data_from_world{1}; // its inverse
   glm::dmat3 normal_to_world{1}; // inverse transpose of the matrix's linear part
   glm::dvec3 translation{0};     // world place of the data set's origin
   Bounds bounds{};               // world
   double stretch{1};             // at least the factor by which data_from_world lengthens a vector
+  double curvature{1};           // a sphere's smallest radius of curvature becomes this times its radius (similarities: exactly)
 };
 
 struct World {

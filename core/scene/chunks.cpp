@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/chunks.hpp"
 
+#include "core/base/parallel.hpp"
 #include "core/scene/morton.hpp"
-#include "core/scene/parallel.hpp"
 
 #include <algorithm>
 #include <array>

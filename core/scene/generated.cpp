@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/generated.hpp"
 
+#include "core/base/parallel.hpp"
 #include "core/scene/codes.hpp"
-#include "core/scene/parallel.hpp"
 
 #include <fmt/format.h>
 

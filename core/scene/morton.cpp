@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/morton.hpp"
 
-#include "core/scene/parallel.hpp"
+#include "core/base/parallel.hpp"
 
 #include <array>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "passes/particles/order.hpp"
 
-#include "core/scene/parallel.hpp"
+#include "core/base/parallel.hpp"
 #include "passes/particles/pipelines.hpp"
 #include "passes/particles/radix_sort.hpp"
 

@@ -44,6 +44,9 @@ TEST(Names, SpellingsOfSingleFields) {
 TEST(Names, SingleFieldsFormGroups) {
   EXPECT_THAT(columns_of({{"FZ"}, {"x"}, {"fx"}, {"y"}, {"fy"}, {"z"}, {"r"}, {"g"}, {"b"}}),
               ElementsAre("force(3)", "position(3)", "color(3)"));
+  EXPECT_THAT(columns_of({{"nx"}, {"NY"}, {"nz"}}), ElementsAre("normal(3)"));
+  EXPECT_THAT(columns_of({{"nx"}, {"ny"}}), ElementsAre("nx(1)", "ny(1)"));
+  EXPECT_THAT(columns_of({{"Normals", 3}}), ElementsAre("normal(3)"));
   EXPECT_THAT(columns_of({{"r"}, {"vx"}, {"vy"}}),
               ElementsAre("radius(1)", "vx(1)", "vy(1)")); // incomplete: as they are
   EXPECT_THAT(
