@@ -25,6 +25,7 @@ inline constexpr std::string_view output_texture = "A012";
 inline constexpr std::string_view compare_input = "A013";
 inline constexpr std::string_view validation = "A014";
 inline constexpr std::string_view twice_to_stdout = "A015";
+inline constexpr std::string_view panel = "A016";
 inline constexpr std::string_view alpha_ignored = "A020";
 inline constexpr std::string_view shadows_ignored = "A021";
 inline constexpr std::string_view tolerance_ignored = "A022";
@@ -33,9 +34,9 @@ inline constexpr std::string_view tolerance_ignored = "A022";
 struct AppCode {
   std::string_view code{}, line{};
 };
-inline constexpr std::array<AppCode, 18> app_codes{{
+inline constexpr std::array<AppCode, 19> app_codes{{
     {code::command_line, "usage: an unknown option, a missing argument, words that do not fit together"},
-    {code::size, "usage: --size is not WIDTHxHEIGHT, each from 1 to 65536"},
+    {code::size, "usage: --size is not WIDTHxHEIGHT, each from 1 to 32768"},
     {code::output_ending, "usage: an output file of an ending that cannot be written"},
     {code::aov_request, "usage: --aov or --dump is not NAME=FILE with a known name"},
     {code::aov_not_made, "usage: no pass of the graph makes the AOV"},
@@ -49,6 +50,7 @@ inline constexpr std::array<AppCode, 18> app_codes{{
     {code::compare_input, "input: a file that compare cannot take as a picture"},
     {code::validation, "failed: the validation layer had something to say"},
     {code::twice_to_stdout, "usage: two outputs to standard output"},
+    {code::panel, "usage: --panel is no number of pixels from 16, or a dump of a picture that is drawn in panels"},
     {code::alpha_ignored, "warning: the graph has no pass for transparent particles"},
     {code::shadows_ignored, "warning: shadows are not drawn"},
     {code::tolerance_ignored, "warning: the tolerance is not used"},

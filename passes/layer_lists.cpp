@@ -18,7 +18,7 @@ constexpr double slack = 0.05; // pixels: margins of proxies and rounding
 struct Extent {
   std::int64_t begin{}, end{};
 };
-Extent extent(double center, double z, double r, const View& view, double size, double sample) {
+Extent extent(double center, double z, double r, const View& view, double size, double axis, double sample) {
   double lo = center - r, hi = center + r;
   if (view.projection == Projection::Perspective) {
     const double near = z - r, far = z + r;
@@ -26,7 +26,7 @@ Extent extent(double center, double z, double r, const View& view, double size, 
     lo = std::min(lo / near, lo / far);
     hi = std::max(hi / near, hi / far);
   }
-  const double first = std::ceil(lo * view.focal + 0.5 * size - sample - slack), last = std::floor(hi * view.focal + 0.5 * size - sample + slack);
+  const double first = std::ceil(lo * view.focal + axis - sample - slack), last = std::floor(hi * view.focal + axis - sample + slack);
   return {static_cast<std::int64_t>(std::clamp(first, 0.0, size)), static_cast<std::int64_t>(std::clamp(last + 1.0, 0.0, size))};
 }
 
@@ -37,8 +37,8 @@ struct RowCounter {
 
   void add(const glm::dvec3& c, double r) {
     if (view.projection == Projection::Perspective && c.z + r <= 0.0) return;
-    const Extent x = extent(c.x, c.z, r, view, view.size.width, view.sample_offset.x);
-    const Extent y = extent(c.y, c.z, r, view, view.size.height, view.sample_offset.y);
+    const Extent x = extent(c.x, c.z, r, view, view.size.width, view.center().x, view.sample_offset.x);
+    const Extent y = extent(c.y, c.z, r, view, view.size.height, view.center().y, view.sample_offset.y);
     if (x.begin >= x.end || y.begin >= y.end) return;
     change[static_cast<std::size_t>(y.begin)] += x.end - x.begin;
     change[static_cast<std::size_t>(y.end)] -= x.end - x.begin;

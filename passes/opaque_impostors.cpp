@@ -139,6 +139,7 @@ private:
       ParticlePipelineKey key = key_for(scene, view, *draw.batch);
       key.expansion = expansion;
       key.near_eye = draw.near_eye;
+      key.affine = draw.affine;
       key.aovs = aovs_;
       key.targets = targets_;
       key.depth = depth_;

@@ -166,6 +166,7 @@ private:
       key.particle.phase = Phase::Transparent;
       key.particle.expansion = expansion_;
       key.particle.near_eye = run.near_eye;
+      key.particle.affine = run.affine;
       key.particle.per_particle_color = store_->has_colors();
       key.particle.targets = asked.targets;
       key.particle.depth = depth_format_;

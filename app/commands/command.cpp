@@ -2,6 +2,7 @@
 #include "app/commands/command.hpp"
 
 #include "app/codes.hpp"
+#include "app/library/panels.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -37,7 +38,7 @@ Size2d parse_size(std::string_view text) {
   const auto [x, first] = std::from_chars(text.data(), end, size.width);
   const bool middle = first == std::errc{} && x != end && (*x == 'x' || *x == 'X');
   const auto [last, second] = std::from_chars(middle ? x + 1 : end, end, size.height);
-  constexpr std::uint32_t most = 65536;
+  constexpr std::uint32_t most = largest_picture;
   const bool sound = middle && second == std::errc{} && last == end && size.width >= 1 && size.height >= 1 &&
                      size.width <= most && size.height <= most;
   if (!sound)

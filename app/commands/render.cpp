@@ -2,6 +2,7 @@
 // mote render: one picture, its AOVs and whatever else of the graph is asked for, into files.
 #include "app/codes.hpp"
 #include "app/commands/command.hpp"
+#include "app/library/panels.hpp"
 #include "app/library/reference_picture.hpp"
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ struct RenderArguments {
   std::vector<std::string> aovs{}, dumps{};
   bool reference{}, transparent{};
   int bits{8};
+  std::uint32_t panel{};
 };
 
 // What goes where.
@@ -119,6 +121,8 @@ void render_reference_picture(const RenderArguments& a, const Outputs& outputs, 
 
 void run(const RenderArguments& a) {
   const Outputs outputs = parse_outputs(a);
+  if (a.panel != 0 && a.panel < 16)
+    fail(Exit::Usage, code::panel, {"--panel"}, fmt::format("'{}' is too small for a panel: at least 16 pixels a side", a.panel));
   const JobRequest request = request_of(a, outputs);
   const passes::Expansion expansion = parse_expansion(a.scene.expansion);
 
@@ -141,9 +145,12 @@ void run(const RenderArguments& a) {
   const std::unique_ptr<DrawingDevice> device = opening.get();
   FrameRenderer renderer(*device, std::move(*graph), config, a.device.display, expansion);
   renderer.set_scene(job.scene);
-  renderer.wait(renderer.draw(job.view()));
+  const std::size_t panels = panel_count(renderer, job.view(), a.panel);
+  if (panels > 1 && !outputs.dumps.empty())
+    fail(Exit::Usage, code::panel, {"--dump"}, fmt::format("the picture is drawn in {} panels, and a dump holds one frame", panels),
+         {fmt::format("draw at most {} pixels a side, or leave --panel out", default_panel)});
+  const DrawnPicture picture = draw_picture(renderer, job.view(), a.panel);
   print(renderer.report());
-  const DrawnPicture picture = renderer.read();
   // How far a baked view transform is from the exact one is measured when it is made; say so.
   if (renderer.display_text().find("baked") != std::string::npos) fmt::print(stderr, "mote: {}\n", renderer.display_text());
   save(a, outputs, picture, provenance_of(a, job, device->info().name, renderer.display_text()));
@@ -164,6 +171,7 @@ void add_render(CLI::App& app, Exit& exit) {
   command->add_option("--dump", a->dumps, "any source of the graph, into a .npy or .exr")->allow_extra_args(false)->type_name("PASS.SLOT=FILE");
   command->add_flag("--reference", a->reference, "draw with the double-precision reference instead of a device");
   command->add_flag("--transparent", a->transparent, "a background of alpha 0");
+  command->add_option("--panel", a->panel, "draw in panels of at most N pixels a side (4096 where nothing is said), without seams")->type_name("N");
   command->add_option("--bits", a->bits, "bits per channel of a PNG: 8 or 16")->check(CLI::IsMember({8, 16}))->type_name("N");
   command->callback([a, &exit] {
     run(*a);

@@ -46,6 +46,7 @@ public:
   // One texture or buffer of the graph, to .npy, or to .exr if it is a color or a number a pixel.
   void dump(const std::string& source, const std::string& path);
 
+  [[nodiscard]] const gpu::Limits& limits() const { return device_.device().limits(); }
   [[nodiscard]] const rg::Plan& plan() const { return executor_.plan(); }
   [[nodiscard]] const std::vector<rg::PassTiming>& timings() { return executor_.timings(true); }
   void set_stage_times(bool on) { executor_.set_stage_times(on); }

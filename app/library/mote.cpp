@@ -3,10 +3,12 @@
 
 #include "app/library/frame_renderer.hpp"
 #include "app/library/job.hpp"
+#include "app/library/panels.hpp"
 #include "core/image/png.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 
 namespace mote {
 namespace {
@@ -80,6 +82,8 @@ std::string Renderer::device_name() const { return impl_->device.info().name; }
 
 Image Renderer::Impl::render(const app::Job& loaded, const RenderOptions& options) {
   if (options.width == 0 || options.height == 0) fail(Exit::Usage, "A002", {}, fmt::format("a picture of {}x{} has no pixels", options.width, options.height));
+  if (std::max(options.width, options.height) > app::largest_picture)
+    fail(Exit::Usage, "A002", {}, fmt::format("a picture of {}x{} is too large: at most {} pixels a side", options.width, options.height, app::largest_picture));
   app::Job job = loaded;
   job.size = {options.width, options.height};
   job.scene.camera = complete_camera(job.desc.camera, job.scene.bounds, job.size);
@@ -100,8 +104,7 @@ Image Renderer::Impl::render(const app::Job& loaded, const RenderOptions& option
   display.view = options.view;
   app::FrameRenderer renderer(device, std::move(*graph), config, display, expansion_of(options.expansion));
   renderer.set_scene(job.scene);
-  renderer.wait(renderer.draw(job.view()));
-  app::DrawnPicture p = renderer.read();
+  app::DrawnPicture p = app::draw_picture(renderer, job.view());
   return {p.size.width,       p.size.height,   std::move(p.rgba8), std::move(p.linear),
           std::move(p.depth), std::move(p.id), std::move(p.normal)};
 }

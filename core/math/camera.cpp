@@ -10,12 +10,12 @@ namespace mote {
 
 glm::dvec3 View::ray_origin(double x, double y) const {
   if (projection == Projection::Perspective) return glm::dvec3(0);
-  return {(x + sample_offset.x - 0.5 * size.width) / focal, (y + sample_offset.y - 0.5 * size.height) / focal, 0.0};
+  return {(x + sample_offset.x - center().x) / focal, (y + sample_offset.y - center().y) / focal, 0.0};
 }
 
 glm::dvec3 View::ray_direction(double x, double y) const {
   if (projection == Projection::Orthographic) return {0, 0, 1};
-  return {(x + sample_offset.x - 0.5 * size.width) / focal, (y + sample_offset.y - 0.5 * size.height) / focal, 1.0};
+  return {(x + sample_offset.x - center().x) / focal, (y + sample_offset.y - center().y) / focal, 1.0};
 }
 
 namespace {
@@ -55,6 +55,26 @@ View make_view(const Camera& c, Size2d size, double scene_size) {
   const double length = std::max({scene_size, glm::length(c.target - c.eye), 1e-20});
   v.depth_near = std::min(1e-6 * length, c.near.value_or(length));
   return v;
+}
+
+std::vector<View> panels(const View& view, std::uint32_t most) {
+  const auto split = [most](std::uint32_t length) {
+    std::vector<std::uint32_t> ends{0};
+    const std::uint64_t parts = (std::uint64_t{length} + most - 1) / most;
+    for (std::uint64_t i = 1; i <= parts; ++i) ends.push_back(static_cast<std::uint32_t>(length * i / parts));
+    return ends;
+  };
+  const std::vector<std::uint32_t> x = split(view.size.width), y = split(view.size.height);
+  if (x.size() == 2 && y.size() == 2) return {view};
+  std::vector<View> out;
+  for (std::size_t j = 1; j < y.size(); ++j)
+    for (std::size_t i = 1; i < x.size(); ++i) {
+      View& panel = out.emplace_back(view);
+      panel.picture = view.whole();
+      panel.panel_origin = view.panel_origin + glm::uvec2(x[i - 1], y[j - 1]);
+      panel.size = {x[i] - x[i - 1], y[j] - y[j - 1]};
+    }
+  return out;
 }
 
 Camera frame(const Bounds& bounds, Size2d size) {

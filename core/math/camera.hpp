@@ -7,6 +7,9 @@
 //   perspective    origin 0,               direction ((x+s.x-w/2)/focal, (y+s.y-h/2)/focal, 1)
 //   orthographic   origin ((x+s.x-w/2)/focal, (y+s.y-h/2)/focal, 0),       direction (0, 0, 1)
 // so the ray parameter is the depth along the view axis in both. Pixels are square.
+//
+// A view may be a panel of a larger picture: pixels count from the panel's top left, and the w/2 and h/2 above are
+// where the axis meets it, center(). A panel's rays are those of the whole picture, so panels have no seams.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,6 +17,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mote {
 
@@ -36,13 +40,17 @@ struct View {
   Projection projection{Projection::Perspective};
   glm::dvec3 eye{0};               // world
   glm::dmat3 rotation{1};          // view from world; its rows are right, down, forward
-  Size2d size{};                   // pixels
+  Size2d size{};                   // pixels, of what is drawn: the picture or a panel of it
+  Size2d picture{};                // pixels, of the picture that this is a panel of; 0x0: this is all of it
+  glm::uvec2 panel_origin{0};      // its top left pixel there
   double focal{1};                 // pixels; orthographic: pixels per world unit
   glm::dvec2 sample_offset{0.5, 0.5};
   double near_cut{0};              // nothing nearer is visible; 0: everything in front of the eye plane
   double far_cut{0};               // nothing farther is visible; 0: no limit
   double depth_near{1};            // n of the depth encoding n/z (reverse-Z, infinite far); <= near_cut where that is set
 
+  [[nodiscard]] Size2d whole() const { return picture.width ? picture : size; }
+  [[nodiscard]] glm::dvec2 center() const { return glm::dvec2(whole().width, whole().height) * 0.5 - glm::dvec2(panel_origin); }
   [[nodiscard]] glm::dvec3 to_view(const glm::dvec3& world) const { return rotation * (world - eye); }
   [[nodiscard]] glm::dvec3 ray_origin(double x, double y) const;    // view space; pixel indices, offset added inside
   [[nodiscard]] glm::dvec3 ray_direction(double x, double y) const; // view space, not normalized; z = 1
@@ -54,6 +62,10 @@ std::string check(const Camera& camera);
 
 // `scene_size` is a length of the scene (bounding diagonal); it only scales depth_near. Precondition: check() is empty.
 View make_view(const Camera& camera, Size2d size, double scene_size);
+
+// The panels of a view, row by row: none larger than `most` x `most` pixels, as equal as can be. One that fits is
+// its own only panel.
+std::vector<View> panels(const View& view, std::uint32_t most);
 
 struct Bounds { // axis-aligned, world; empty while min > max
   glm::dvec3 min{1e300}, max{-1e300};

@@ -59,7 +59,7 @@ inline constexpr std::array<SceneCode, 31> scene_codes{{
     {code::scene_camera, "error: the camera cannot see (eye = target, up along the view, near >= far, ...)"},
     {code::transform_form, "error: a transform step is not one of the known ones"},
     {code::transform_singular, "error: a transform flattens space"},
-    {code::transform_not_similar, "error: a transform would turn spheres into ellipsoids"},
+    {code::transform_not_similar, "error: a transform of an assembly is no rigid motion"},
     {code::key_not_of_kind, "error: a key that belongs to another kind of light, projection or color"},
     {code::no_assembly, "error: an assembly is asked for that the file does not have"},
     {code::set_path, "error: --set names no place in the scene"},

@@ -143,10 +143,6 @@ DataDesc read_data(const Node& table, std::size_t index, const std::filesystem::
   data.alpha = reader.number("alpha", config::unit).value_or(1.0);
   data.material = read_material(reader);
   data.transform = read_transform(reader, "transform");
-  if (reader.find("transform") && !similarity_scale(data.transform))
-    diagnostics.error(code::transform_not_similar, reader.find("transform")->loc,
-                      fmt::format("{} would turn spheres into ellipsoids, which mote does not draw yet", reader.name_of("transform")),
-                      {"Spheres can be moved, turned, mirrored and scaled alike along all axes"});
   if (const auto assembly = reader.text("assembly")) data.assembly = Located<std::string>{*assembly, reader.find("assembly")->loc};
   reader.finish();
   return data;

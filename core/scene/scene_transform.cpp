@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The transform list of a data set: affine steps composed in double precision, first step first.
+#include "core/math/principal_axes.hpp"
 #include "core/scene/scene_parser.hpp"
 
 #include <fmt/format.h>
@@ -148,11 +149,12 @@ std::optional<glm::dmat4> read_step(TableReader& step, const std::string& name, 
   return matrix(step, value);
 }
 
-// Does the step flatten space? Judged relative to the lengths of its columns, so that small units are fine.
+// Does the map flatten space? Judged by the half axes of what it makes of a sphere, so that small units are fine.
+constexpr double flattest = 1e-6;
+constexpr std::string_view flat_text = "a sphere would become thinner than a millionth of its length";
 bool singular(const glm::dmat4& m) {
-  const glm::dmat3 linear(m);
-  const double lengths = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-  return !(std::abs(glm::determinant(linear)) > 1e-12 * lengths);
+  const PrincipalAxes shape = principal_axes(glm::dmat3(m));
+  return !(shape.shortest() > flattest * shape.longest());
 }
 
 } // namespace
@@ -183,11 +185,13 @@ glm::dmat4 read_transform(TableReader& reader, std::string_view key) {
     if (!m) continue;
     if (singular(*m)) {
       reader.diagnostics().error(code::transform_singular, value.loc,
-                                 fmt::format("'{}' flattens space: its determinant is zero", config::to_text(item)));
+                                 fmt::format("'{}' flattens space: {}", config::to_text(item), flat_text));
       continue;
     }
     all = *m * all;
   }
+  if (singular(all))
+    reader.diagnostics().error(code::transform_singular, list->loc, fmt::format("all steps together flatten space: {}", flat_text));
   return all;
 }
 

@@ -20,11 +20,12 @@ struct Source {
   glm::dmat3 linear{1};      // world axes from data
   glm::dvec3 translation{0}; // of the data set's origin, relative to the eye
   double scale{1};           // at most this much longer than in the data
+  bool affine{};             // placed by no similarity
 };
 
 Source source_of(const Batch& batch, std::size_t instance, const View& view) {
   const glm::dmat4& m = batch.instances[instance].world_from_data;
-  Source s{&batch, instance, glm::dmat3(m), glm::dvec3(m[3]) - view.eye, 1.0};
+  Source s{&batch, instance, glm::dmat3(m), glm::dvec3(m[3]) - view.eye, 1.0, !similarity_scale(m)};
   s.scale = similarity_scale(m).value_or(std::max({glm::length(s.linear[0]), glm::length(s.linear[1]), glm::length(s.linear[2])}));
   return s;
 }
@@ -89,12 +90,12 @@ std::vector<KeyValue> sorted_keys(const Seen& seen, const Keys& keys) {
 
 // Cuts the order where another pipeline is needed.
 void make_runs(OrderedParticles& out, const Seen& seen, const Scene& scene, const View& view, std::size_t near_count) {
-  using Class = std::tuple<std::string, std::uint32_t, bool>;
+  using Class = std::tuple<std::string, std::uint32_t, bool, bool>;
   std::vector<Class> known;
   std::vector<std::uint32_t> class_of(seen.sources.size());
   for (std::size_t s = 0; s < seen.sources.size(); ++s) {
     const ParticlePipelineKey key = key_for(scene, view, *seen.sources[s].batch);
-    const Class c{key.type, key.specular_model, key.head_light_only};
+    const Class c{key.type, key.specular_model, key.head_light_only, seen.sources[s].affine};
     const auto it = std::find(known.begin(), known.end(), c);
     class_of[s] = static_cast<std::uint32_t>(it - known.begin());
     if (it == known.end()) known.push_back(c);
@@ -105,7 +106,7 @@ void make_runs(OrderedParticles& out, const Seen& seen, const Scene& scene, cons
     const bool near_eye = placement < near_count;
     const std::uint32_t now = class_of[owner] * 2 + near_eye;
     if (now != last)
-      out.runs.push_back({i, 0, static_cast<std::uint32_t>(seen.sources[owner].batch - scene.batches.data()), near_eye});
+      out.runs.push_back({i, 0, static_cast<std::uint32_t>(seen.sources[owner].batch - scene.batches.data()), near_eye, seen.sources[owner].affine});
     ++out.runs.back().count;
     last = now;
   }

@@ -24,7 +24,7 @@ enum class Order : std::uint8_t { BackToFront, FrontToBack, File };
 struct OrderedRun {
   std::uint32_t first{}, count{}; // places in OrderedParticles::order
   std::uint32_t batch{};          // any batch of the run: what its pipeline must be able to do
-  bool near_eye{};
+  bool near_eye{}, affine{};
 };
 
 struct OrderedParticles {

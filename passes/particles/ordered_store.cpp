@@ -41,7 +41,8 @@ OrderedStore::OrderedStore(gpu::Device device) : device_(std::move(device)) {
 OrderedStore::Signature OrderedStore::signature_of(const Scene& scene, const View& view, const Selection& selection, Order order) {
   Signature s;
   std::vector<double>& v = s.values;
-  v = {double(view.projection), view.focal, double(view.size.width), double(view.size.height), view.near_cut, view.far_cut, double(order)};
+  v = {double(view.projection), view.focal, double(view.size.width), double(view.size.height), view.near_cut, view.far_cut, double(order),
+       view.center().x, view.center().y};
   add(v, view.eye);
   for (int i = 0; i < 3; ++i) add(v, view.rotation[i]);
   for (const Light& light : scene.lights) v.push_back(double(light.kind)); // what pipelines differ by

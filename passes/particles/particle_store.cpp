@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "passes/particles/particle_store.hpp"
 
+#include "core/math/principal_axes.hpp"
 #include "passes/particles/placement.hpp"
 #include "passes/particles/tiles/tile_placement.hpp"
 
@@ -166,6 +167,17 @@ std::vector<Run> ParticleStore::Impl::place_all(const Scene& scene, const View& 
   return runs;
 }
 
+namespace {
+// Half axes of what spheres become, where the placement is no similarity.
+void set_shape(const glm::dmat3& linear, BatchBlock& block) {
+  const PrincipalAxes shape = principal_axes(linear);
+  block.linear0_scale.w = static_cast<float>(shape.lengths.x);
+  block.linear1.w = static_cast<float>(shape.lengths.y);
+  block.linear2.w = static_cast<float>(shape.lengths.z);
+  for (int i = 0; i < 6; ++i) block.axes[static_cast<std::size_t>(i)] = static_cast<float>(shape.axes[i / 3][i % 3]);
+}
+} // namespace
+
 BatchBlock batch_block(const Batch& batch, std::size_t instance, const View& view) {
   const glm::dmat4& m = batch.instances[instance].world_from_data;
   const glm::dmat3 linear = view.rotation * glm::dmat3(m);
@@ -174,6 +186,7 @@ BatchBlock batch_block(const Batch& batch, std::size_t instance, const View& vie
   block.linear0_scale = glm::vec4(glm::vec3(linear[0]), static_cast<float>(similarity_scale(m).value_or(1.0)));
   block.linear1 = glm::vec4(glm::vec3(linear[1]), 0.0f);
   block.linear2 = glm::vec4(glm::vec3(linear[2]), 0.0f);
+  if (!similarity_scale(m)) set_shape(linear, block);
   block.color = glm::vec4(glm::vec3(batch.color), static_cast<float>(batch.alpha));
   block.material = glm::vec4(glm::dvec4(material.ambient, material.diffuse, material.specular, material.exponent));
   block.id_base = static_cast<std::uint32_t>(batch.id_base + instance * batch.row_count);
@@ -199,7 +212,8 @@ PlacedView ParticleStore::Impl::finish(const std::vector<Run>& runs, const View&
                             .group = group_for(placed, *run.slice),
                             .block = block_of(run, view),
                             .particles = run.count * chunk_capacity,
-                            .near_eye = run.near_eye});
+                            .near_eye = run.near_eye,
+                            .affine = !similarity_scale(run.batch->instances[run.instance].world_from_data)});
   return result;
 }
 

@@ -15,6 +15,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -26,8 +27,9 @@ struct BatchBlock {
   glm::vec4 linear0_scale{1, 0, 0, 1}, linear1{0, 1, 0, 0}, linear2{0, 0, 1, 0};
   glm::vec4 color{1}, material{1, 1, 0, 32};
   std::uint32_t id_base{}, first_placement{}, first_near{};
+  std::array<float, 6> axes{}; // affine draws
 };
-static_assert(sizeof(BatchBlock) == 92);
+static_assert(sizeof(BatchBlock) == 116);
 // What all draws of an instance share; where its placements start is left at 0.
 BatchBlock batch_block(const Batch& batch, std::size_t instance, const View& view);
 
@@ -37,6 +39,7 @@ struct ParticleDraw {
   BatchBlock block{};
   std::uint32_t particles{};  // places to expand: 64 a placed chunk
   bool near_eye{};            // placed in double on the CPU: shaders with NEAR_EYE
+  bool affine{};              // placed by no similarity, so that spheres are ellipsoids: shaders with AFFINE
 };
 
 // One view's draws and the buffer that their placements live in.

@@ -17,7 +17,7 @@ constexpr std::size_t most_pipelines = 256; // far above what scenes use; beyond
 }
 
 std::string to_string(const ParticlePipelineKey& k) {
-  return fmt::format("{}{} / {} / {} aov={} {} lights={}{} specular={}{}", k.type, k.near_eye ? " near" : "", to_string(k.expansion), to_string(k.phase), k.aovs,
+  return fmt::format("{}{}{} / {} / {} aov={} {} lights={}{} specular={}{}", k.type, k.affine ? " affine" : "", k.near_eye ? " near" : "", to_string(k.expansion), to_string(k.phase), k.aovs,
                      k.orthographic ? "orthographic" : "perspective", k.light_count, k.local_lights ? " local" : "",
                      k.specular_model, k.per_particle_color ? " colors" : "") + (k.head_light_only ? " head light" : "");
 }
@@ -86,7 +86,7 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   if (pipelines_.size() >= most_pipelines) pipelines_.clear();
 
   const bool geometry = key.expansion == Expansion::Geometry;
-  const std::string folder = key.type + (key.near_eye ? "/near" : "");
+  const std::string folder = key.type + (key.affine ? "/affine" : "") + (key.near_eye ? "/near" : "");
   const gpu::ShaderModule vertex = module(folder + (geometry ? "/geometry.vert" : "/vertex.vert"));
   const gpu::ShaderModule fragment = module(fmt::format("{}/opaque.frag/aov{}", folder, key.aovs));
   const gpu::ShaderModule geometry_module = geometry ? module(folder + "/geometry.geom") : gpu::ShaderModule();

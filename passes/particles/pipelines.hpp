@@ -25,7 +25,7 @@ struct ParticlePipelineKey {
   Expansion expansion{Expansion::Vertex}; // never Auto
   Phase phase{Phase::Opaque};
   std::uint32_t aovs{};
-  bool near_eye{};
+  bool near_eye{}, affine{}; // as the draw says (ParticleDraw)
   bool orthographic{};
   std::uint32_t light_count{};
   bool local_lights{};

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "passes/particles/placement.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace mote::passes {
 
 ViewCuller::ViewCuller(const View& view) {
-  // One pixel of slack: sample offsets, proxy margins and rounding never matter.
-  const double hx = (0.5 * view.size.width + 1.0) / view.focal, hy = (0.5 * view.size.height + 1.0) / view.focal;
+  // One pixel of slack: sample offsets, proxy margins and rounding never matter. From the axis to the sides, per unit of z:
+  const glm::dvec2 low = (view.center() + 1.0) / view.focal, high = (glm::dvec2(view.size.width, view.size.height) - view.center() + 1.0) / view.focal;
   auto add = [&](glm::dvec3 normal, double offset) {
     const double length = glm::length(normal);
     planes_[count_] = normal / length;
@@ -15,6 +16,7 @@ ViewCuller::ViewCuller(const View& view) {
   };
   const bool perspective = view.projection == Projection::Perspective;
   for (const double side : {-1.0, 1.0}) {
+    const double hx = side > 0 ? low.x : high.x, hy = side > 0 ? low.y : high.y;
     add(perspective ? glm::dvec3(side, 0, hx) : glm::dvec3(side, 0, 0), perspective ? 0.0 : hx);
     add(perspective ? glm::dvec3(0, side, hy) : glm::dvec3(0, side, 0), perspective ? 0.0 : hy);
   }
@@ -39,24 +41,47 @@ double distance_to_box(const glm::dvec3& eye, const glm::dvec3& center, const gl
   return glm::length(glm::max(glm::abs(eye - center) - half, glm::dvec3(0)));
 }
 
-void place_near(const ChunkSet& set, std::uint64_t chunk, const glm::dmat3& linear, const glm::dvec3& origin, double scale,
-                std::vector<NearPayload>& out) {
-  for (std::uint64_t record = chunk * chunk_capacity; record < (chunk + 1) * chunk_capacity; ++record) {
-    const glm::vec4 stored = set.records[record * set.vec4s_per_record];
-    const glm::dvec3 center = origin + linear * glm::dvec3(stored);
-    const double radius = scale * double(stored.w), distance = glm::length(center);
-    const glm::vec3 rounded(center), rest(center - glm::dvec3(rounded));
-    out.push_back({glm::vec4(rounded, static_cast<float>(radius)),
-                   glm::vec4(static_cast<float>((distance - radius) * (distance + radius)), rest)});
-  }
+// Radius of a ball around the image of a box.
+double reach(const glm::dmat3& linear, const glm::dvec3& half) {
+  return glm::length(linear[0]) * half.x + glm::length(linear[1]) * half.y + glm::length(linear[2]) * half.z;
 }
 
+// A double as the sum of two floats. Volatile, because g++ 12 at -O2 forgets the rounding where it makes two such
+// conversions at once, and then nothing is left over.
+struct TwoFloats {
+  float high, rest;
+  explicit TwoFloats(double value) {
+    volatile float rounded = static_cast<float>(value);
+    high = rounded;
+    rest = static_cast<float>(value - double{high});
+  }
+};
+
 } // namespace
+
+void ChunkPlacer::add_near(const ChunkSet& set, std::uint64_t chunk, const glm::dvec3& origin, std::vector<NearPayload>& out) const {
+  for (std::uint64_t record = chunk * chunk_capacity; record < (chunk + 1) * chunk_capacity; ++record) {
+    const glm::vec4 stored = set.records[record * set.vec4s_per_record];
+    const glm::dvec3 center = origin + linear_ * glm::dvec3(stored);
+    double radius = scale_ * double(stored.w), distance = glm::length(center), power = (distance - radius) * (distance + radius);
+    if (!similar_) {
+      distance = glm::length(center * axes_.axes / (axes_.lengths * radius));
+      power = radius > 0.0 ? (distance - 1.0) * (distance + 1.0) : 0.0;
+    }
+    const TwoFloats x(center.x), y(center.y), z(center.z), p(power);
+    out.push_back({glm::vec4(x.high, y.high, z.high, static_cast<float>(radius)), glm::vec4(x.rest, y.rest, z.rest, p.high),
+                   glm::vec4(p.rest, 0, 0, 0)});
+  }
+}
 
 ChunkPlacer::ChunkPlacer(const Instance& instance, const View& view, const ViewCuller& culler)
     : culler_(culler), instance_linear_(instance.world_from_data), linear_(view.rotation * instance_linear_),
       rotation_(view.rotation), translation_(glm::dvec3(instance.world_from_data[3]) - view.eye),
-      eye_(glm::inverse(instance_linear_) * -translation_), scale_(similarity_scale(instance.world_from_data).value_or(1.0)) {
+      eye_(glm::inverse(instance_linear_) * -translation_) {
+  const auto scale = similarity_scale(instance.world_from_data);
+  similar_ = scale.has_value();
+  scale_ = scale.value_or(1.0);
+  if (!similar_) axes_ = principal_axes(linear_);
   for (int i = 0; i < 3; ++i) reach_[i] = glm::abs(linear_[i]);
 }
 
@@ -67,9 +92,15 @@ bool ChunkPlacer::place(const Chunk& chunk, PlacedBox& out) const {
   out.center = out.origin + linear_ * center;
   if (!culler_.may_see(out.center, linear_, half)) return false;
   out.extent = reach_ * half;
-  const double distance = distance_to_box(eye_, chunk.origin + center, half);
-  out.near = distance < 2.0 * glm::length(half);
-  out.distance = scale_ * distance;
+  if (similar_) {
+    const double distance = distance_to_box(eye_, chunk.origin + center, half);
+    out.near = distance < 2.0 * glm::length(half);
+    out.distance = scale_ * distance;
+  } else {
+    const double radius = reach(linear_, half);
+    out.distance = std::max(0.0, glm::length(out.center) - radius);
+    out.near = out.distance < 2.0 * radius;
+  }
   return true;
 }
 
@@ -83,7 +114,7 @@ void ChunkPlacer::add(const ChunkSet& set, std::uint64_t chunk, std::uint64_t in
   const PlacedChunk placed{glm::uvec4(std::bit_cast<std::uint32_t>(o.x), std::bit_cast<std::uint32_t>(o.y),
                                       std::bit_cast<std::uint32_t>(o.z), static_cast<std::uint32_t>(in_slice))};
   (box.near ? out.near : out.far).push_back(placed);
-  if (box.near) place_near(set, chunk, linear_, box.origin, scale_, out.payloads);
+  if (box.near) add_near(set, chunk, box.origin, out.payloads);
 }
 
 void place_chunks(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance,

@@ -3,6 +3,7 @@
 // precision; the result is rounded to float once.
 #pragma once
 
+#include "core/math/principal_axes.hpp"
 #include "core/scene/scene.hpp"
 
 #include <glm/glm.hpp>
@@ -31,15 +32,18 @@ private:
   int count_{};
 };
 
-// A particle near the eye, placed in double and rounded once; its payload in shaders with NEAR_EYE.
+// A particle near the eye, placed in double; its payload in shaders with NEAR_EYE. Where the placement is no
+// similarity, the radius is the record's and the power that of the eye where the ellipsoid is the unit sphere.
 struct NearPayload {
   glm::vec4 center_radius{0}; // view space
-  glm::vec4 power_rest{0};    // x: |center|^2 - radius^2; yzw: what rounding took from the center
+  glm::vec4 rest_power{0};    // xyz: what rounding took from the center; w: |center|^2 - radius^2
+  glm::vec4 power_rest{0};    // x: what rounding took from that power; yzw unused
 };
 
 // What a view may see of some chunks. A chunk is near when the eye is closer to its box than twice the box's half
-// diagonal: there the rounding of chunk-relative placement (6e-8 of the chunk's extent) would show in the depth, so its
-// particles are placed one by one. Few chunks can be near, whatever the scene.
+// diagonal (under a transform that is no similarity: to a ball around it, which never says less): there the rounding of
+// chunk-relative placement (6e-8 of the chunk's extent) would show in the depth, so its particles are placed one by one.
+// Few chunks can be near, whatever the scene.
 struct PlacedChunks {
   std::vector<PlacedChunk> far{}, near{};
   std::vector<NearPayload> payloads{}; // 64 for each near chunk, in order
@@ -60,16 +64,20 @@ public:
   bool place(const Chunk& chunk, PlacedBox& out) const;
   // Appends a placed chunk for the raster expansions; `in_slice` is its index for the shaders.
   void add(const ChunkSet& set, std::uint64_t chunk, std::uint64_t in_slice, const PlacedBox& box, PlacedChunks& out) const;
-  [[nodiscard]] double scale() const { return scale_; } // of lengths
+  [[nodiscard]] bool similar() const { return similar_; } // else spheres become ellipsoids
+  [[nodiscard]] double scale() const { return scale_; }   // of lengths, by a similarity
   // A record's center in view space, formed in double and rounded once, and its radius.
   [[nodiscard]] glm::vec4 in_view(const ChunkSet& set, std::uint64_t record, const PlacedBox& box) const;
 
 private:
+  void add_near(const ChunkSet& set, std::uint64_t chunk, const glm::dvec3& origin, std::vector<NearPayload>& out) const;
   const ViewCuller& culler_;
   glm::dmat3 instance_linear_, linear_, rotation_;
   glm::dvec3 translation_, eye_; // eye: in data space
   glm::dmat3 reach_{};           // absolute values of linear_
-  double scale_;
+  double scale_{1};
+  bool similar_{true};
+  PrincipalAxes axes_{};         // of anything but a similarity
 };
 
 // Appends the chunks [first, first + count) of an instance that the view may see; indices count from `first`.

@@ -90,7 +90,7 @@ const gpu::RenderPipeline& TransparentPipelines::get(const TransparentKey& key) 
 
   const ParticlePipelineKey& particle = key.particle;
   const bool geometry = particle.expansion == Expansion::Geometry;
-  const std::string folder = particle.type + (particle.near_eye ? "/near" : "");
+  const std::string folder = particle.type + (particle.affine ? "/affine" : "") + (particle.near_eye ? "/near" : "");
   const gpu::ShaderModule vertex = module(folder + (geometry ? "/ordered/geometry.vert" : "/ordered/vertex.vert"));
   const gpu::ShaderModule fragment = module(fmt::format("{}/transparent.frag/mode{}", folder, static_cast<int>(key.layering)));
   const gpu::ShaderModule geometry_module = geometry ? module(folder + "/ordered/geometry.geom") : gpu::ShaderModule();

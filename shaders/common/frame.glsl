@@ -15,8 +15,8 @@ struct Light {
 };
 
 layout(std140, set = 0, binding = 0) uniform FrameBlock {
-  vec4 viewport;          // width, height, focal (pixels; orthographic: pixels per world unit), 1 / focal to 12 bits
-  vec4 sample_near_far;   // xy: sample offset - viewport / 2; z: near cut; w: far cut (huge: none)
+  vec4 viewport;          // width, height, focal (pixels; orthographic: pixels per world unit), 1 / focal to at most 12 bits
+  vec4 sample_near_far;   // xy: sample offset - where the axis meets the picture (of a panel: the whole one); z: near cut; w: far cut (huge: none)
   vec4 depth_near;        // x: n of the depth encoding n / z; y: the rest of 1 / focal
   vec4 world_from_view0;  // columns of the rotation
   vec4 world_from_view1;
@@ -37,15 +37,24 @@ layout(constant_id = 6) const bool head_light_only = false; // one head light, n
 struct Ray {
   vec3 origin;    // view space
   vec3 direction; // z = 1: the ray parameter is the depth along the view axis
+#ifdef NEAR_EYE
+  vec3 rest;      // what rounding took from the direction (orthographic: from the origin)
+#endif
 };
 
 // The ray through a sample of the pixel whose integer position is floor(fragment). Half-integers have few bits, so
-// the first product is exact and the direction is rounded once. `offset`: sample offset - viewport / 2; `high` and `rest`:
-// the two parts of 1 / focal.
-Ray ray_through(vec2 fragment, vec2 offset, float high, float rest) {
+// the first product is exact and the direction is rounded once; near the eye the rest of that rounding comes along.
+// `offset`: sample offset - where the axis meets the picture; `high` and `low`: the two parts of 1 / focal.
+Ray ray_through(vec2 fragment, vec2 offset, float high, float low) {
   vec2 pixel = floor(fragment) + offset;
-  precise vec2 p = pixel * high + pixel * rest;
+  precise vec2 large = pixel * high, small = pixel * low;
+  precise vec2 p = large + small;
+#ifdef NEAR_EYE
+  precise vec2 rest = small - (p - large);
+  return orthographic ? Ray(vec3(p, 0.0), vec3(0.0, 0.0, 1.0), vec3(rest, 0.0)) : Ray(vec3(0.0), vec3(p, 1.0), vec3(rest, 0.0));
+#else
   return orthographic ? Ray(vec3(p, 0.0), vec3(0.0, 0.0, 1.0)) : Ray(vec3(0.0), vec3(p, 1.0));
+#endif
 }
 Ray pixel_ray(vec2 fragment) { return ray_through(fragment, frame.sample_near_far.xy, frame.viewport.w, frame.depth_near.y); }
 

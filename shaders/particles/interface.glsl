@@ -31,7 +31,7 @@
 struct Placement {
   mat3 linear;
   vec3 origin;
-  float scale; // of lengths; linear is a similarity
+  float scale; // of lengths, where linear is a similarity; not with AFFINE
 };
 
 // A rectangle in tangents x/z, y/z (orthographic: in x, y), and the least visible z of the particle.

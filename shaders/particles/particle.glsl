@@ -7,14 +7,14 @@
 #ifndef MOTE_PARTICLE_GLSL
 #define MOTE_PARTICLE_GLSL
 
-#include "particles/interface.glsl"
-
 // Mirrors BatchBlock of passes/particles/particle_store.hpp.
-//   linear0..2_scale: columns of Placement.linear; w of the first: scale
+//   linear0..2_scale: columns of Placement.linear; w of the first: scale; with AFFINE (a placement that is no
+//                     similarity) the three w: lengths of the half axes that the unit sphere gets
 //   color:            working space, straight alpha; rgb used where particles have no color of their own
 //   material:         ambient, diffuse, specular, exponent
 //   id_base:          id of row 0 of this instance
 //   first_near:       NEAR_EYE: place of the draw's first particle among the near payloads
+//   axes:             AFFINE: directions of the first two half axes, view space; the type looks at them
 #define BATCH_FIELDS \
   vec4 linear0_scale; \
   vec4 linear1; \
@@ -23,7 +23,8 @@
   vec4 material; \
   uint id_base; \
   uint first_placement; \
-  uint first_near;
+  uint first_near; \
+  float axes[6];
 
 #ifdef ORDERED
 // Particles of any batch in one draw (passes/particles/ordered_store.hpp): `batch` is a row of a table, chosen by
@@ -37,6 +38,8 @@ uint batch_index = 0u;
 #else
 layout(push_constant) uniform BatchBlock { BATCH_FIELDS } batch;
 #endif
+
+#include "particles/interface.glsl"
 
 layout(std430, set = 1, binding = 0) readonly buffer Records { vec4 records[]; };
 layout(std430, set = 1, binding = 1) readonly buffer Rows { uint rows[]; };

@@ -33,7 +33,7 @@ protected:
     write("missing.toml", "schema = 1\n[[data]]\nfile = \"gone.csv\"\n");
     write("attribute.toml", "schema = 1\n[[data]]\nfile = \"good.csv\"\ncolor = { attribute = \"mas\" }\n");
     write("camera.toml", "schema = 1\n[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\nup = [0, 0, 1]\n[[data]]\nfile = \"good.csv\"\n");
-    write("ellipsoid.toml", "schema = 1\n[[data]]\nfile = \"good.csv\"\ntransform = [ { scale = [1, 2, 1] } ]\n");
+    write("flat.toml", "schema = 1\n[[data]]\nfile = \"good.csv\"\ntransform = [ { scale = [1, 0, 1] } ]\n");
     write("graph.toml", "schema = 1\noutput = \"display.color\"\n[[pass]]\nname = \"display\"\nkind = \"ocio_tonemap\"\ninputs = { color = \"opaque.color\" }\n");
     write("usesgraph.toml", "schema = 1\ngraph = \"graph.toml\"\n[[data]]\nfile = \"good.csv\"\n");
     write("nograph.toml", "schema = 1\ngraph = \"defalt\"\n[[data]]\nfile = \"good.csv\"\n");
@@ -62,6 +62,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"size_zero", "render good.csv -o out.png --size 0x0", 2, "A002", "'0x0' is not a size"},
         BadInput{"size_half", "render good.csv -o out.png --size 100", 2, "A002", "'100' is not a size"},
         BadInput{"size_huge", "render good.csv -o out.png --size 100000x1", 2, "A002", "'100000x1' is not a size"},
+        BadInput{"size_beyond", "render good.csv -o out.png --size 32769x1", 2, "A002", "each from 1 to 32768"},
+        BadInput{"panel_small", "render good.csv -o out.png --panel 8", 2, "A016", "at least 16 pixels a side"},
+        BadInput{"panel_dump", "render good.csv -o out.png --size 64x64 --panel 32 --dump opaque.color=c.npy", 2, "A016", "drawn in 4 panels"},
         BadInput{"size_words", "render good.csv -o out.png --size bigxsmall", 2, "A002", "For example --size 1280x720"},
         BadInput{"output_ending", "render good.csv -o out.jpg", 2, "A003", "Endings: .png, .exr"},
         BadInput{"aov_name", "render good.csv --aov dept=a.npy", 2, "A004", "Did you mean 'depth'?"},
@@ -109,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"camera_up", "render camera.toml --set camera.target=[1,2,9] -o out.png", 2, "S011", "up lies along the view"},
         BadInput{"camera_near_far", "render good.csv --set camera.near=5 --set camera.far=4 -o out.png", 2, "S011", "near (5) must be less than far (4)"},
         BadInput{"camera_fov", "render good.csv --set camera.fov_y=180 -o out.png", 2, "S005", "fov_y"},
-        BadInput{"scene_ellipsoid", "render ellipsoid.toml -o out.png", 3, "S014", "ellipsoid.toml:4:13"},
+        BadInput{"scene_flat", "render flat.toml -o out.png", 3, "S013", "flat.toml:4:25"},
         BadInput{"graph_as_scene", "render graph.toml -o out.png", 3, "S009", "render graph"},
         BadInput{"graph_source", "render good.csv --graph graph.toml -o out.png", 3, "G013", "graph.toml:6:"},
         BadInput{"graph_of_scene", "render usesgraph.toml -o out.png", 3, "G013", "opaque"},

@@ -105,6 +105,48 @@ TEST_F(Commands, DeepTransparentAndLinearPictures) {
   EXPECT_EQ(exr.find("id")->uints[0], 0xFFFFFFFFu);
 }
 
+TEST_F(Commands, PanelsGiveTheSameFiles) {
+  const std::string what = "render spheres:1e3:inside --size 160x90 --aov depth=z.npy --aov id=id.npy --aov normal=n.npy --transparent -o ";
+  ASSERT_EQ(mote(what + "a.exr").exit, 0);
+  const std::string depth = read("z.npy"), id = read("id.npy"), normal = read("n.npy");
+  ASSERT_EQ(mote(what + "b.exr --panel 48").exit, 0);
+  EXPECT_EQ(read("z.npy"), depth);
+  EXPECT_EQ(read("id.npy"), id);
+  EXPECT_EQ(read("n.npy"), normal);
+  EXPECT_EQ(read("a.exr"), read("b.exr"));
+  ASSERT_EQ(mote("render spheres:1e3:fit --size 17000x2 -o wide.png").exit, 0) << "wider than a texture";
+  EXPECT_EQ(read_png(path("wide.png")).width, 17000u);
+}
+
+TEST_F(Commands, StretchedSpheresAreEllipsoids) {
+  write("ball.csv", "x,y,z,radius\n0,0,0,1\n");
+  write("scene.toml", "schema = 1\n[camera]\nprojection = \"orthographic\"\nheight = 9.0\neye = [0, 0, 10]\ntarget = [0, 0, 0]\nup = [0, 1, 0]\n"
+                      "[[data]]\nfile = \"ball.csv\"\ntransform = [ { scale = [4, 2, 1] }, { reflect = [1, 0, 0] } ]\n");
+  ASSERT_EQ(mote("render scene.toml --size 90x90 -o a.exr").exit, 0);
+  const Ran ran = mote("compare a.exr --reference scene.toml --limits id=0");
+  EXPECT_EQ(ran.exit, 0) << ran.out << ran.err;
+  const ExrPicture exr = read_exr(path("a.exr"));
+  std::size_t hits = 0;
+  for (const std::uint32_t id : exr.find("id")->uints) hits += id == 0;
+  EXPECT_NEAR(static_cast<double>(hits), 3.14159265 * 40 * 20, 40.0); // an ellipse of 40 by 20 pixels
+}
+
+TEST_F(Commands, GraphFilesBuildOnShippedOnes) {
+  write("mine.toml", "schema = 1\ninclude = \"default\"\nvariables = { stops = 0.0 }\n[[pass]]\nname = \"display\"\nparams = { exposure = \"$stops\" }\n");
+  ASSERT_EQ(mote("render spheres:1e3:fit --graph mine.toml --size 64x36 -o a.png").exit, 0);
+  ASSERT_EQ(mote("render spheres:1e3:fit --size 64x36 -o b.png").exit, 0);
+  EXPECT_EQ(read_png(path("a.png")).rgba8, read_png(path("b.png")).rgba8);
+  const Ran dark = mote("render spheres:1e3:fit --graph mine.toml --size 64x36 --set variables.stops=-20 -o a.png");
+  ASSERT_EQ(dark.exit, 0) << dark.err;
+  EXPECT_EQ(read_png(path("a.png")).rgba8[0], 0);
+  const Ran wrong = mote("render spheres:1e3:fit --graph mine.toml --set variables.stop=1 -o a.png");
+  EXPECT_NE(wrong.exit, 0);
+  EXPECT_THAT(wrong.err, HasSubstr("G028"));
+  EXPECT_THAT(mote("graph mine.toml --plan").out, HasSubstr("opaque"));
+  const json schema = json::parse(mote("graph --schema").out);
+  EXPECT_EQ(schema["definitions"]["pass"]["allOf"].size(), json::parse(mote("graph --kinds --json").out)["kinds"].size());
+}
+
 TEST_F(Commands, StandardOutputAndDumps) {
   const Ran ran = mote("render spheres:1e3:fit -o - --size 64x36 --dump opaque.depth=d.npy --dump opaque.color=c.exr");
   ASSERT_EQ(ran.exit, 0) << ran.err;

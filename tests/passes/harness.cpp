@@ -9,7 +9,9 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <random>
 
 namespace mote::test {
 namespace {
@@ -95,6 +97,59 @@ Picture GpuTest::draw(const Scene& scene, const View& view, const passes::FrameO
     picture.color.push_back(glm::unpackHalf4x16(half));
   picture.display = read<glm::u8vec4>(device(), executor.output());
   return picture;
+}
+
+namespace {
+// Where both show the same particle, the surfaces are the same: depth within 4 ulp, color within a half float's step.
+void expect_same_surfaces(const Picture& a, const Picture& b) {
+  for (std::size_t i = 0; i < a.id.size(); ++i) {
+    if (a.id[i] != b.id[i] || a.id[i] == 0xFFFFFFFFu) continue;
+    ASSERT_LE(std::abs(a.depth[i] - b.depth[i]), 4 * 1.2e-7f * b.depth[i]) << "pixel " << i;
+    ASSERT_LE(glm::length(a.color[i] - b.color[i]), 2e-3f) << "pixel " << i;
+  }
+}
+} // namespace
+
+Picture GpuTest::check(const Scene& scene, const View& view, const Bars& bars) {
+  using passes::Expansion;
+  const Picture vertex = draw(scene, view, {.expansion = Expansion::Vertex});
+  const Picture geometry = draw(scene, view, {.expansion = Expansion::Geometry});
+  EXPECT_EQ(vertex.id, geometry.id);
+  EXPECT_EQ(vertex.depth, geometry.depth);
+  EXPECT_EQ(vertex.normal, geometry.normal);
+  EXPECT_EQ(vertex.display, geometry.display);
+  expect_equals_reference(vertex, scene, view, bars);
+  // FC-29: with the alarm on, not one fragment is magenta.
+  const Picture alarm = draw(scene, view, {.expansion = Expansion::Vertex, .show_depth_violation = true});
+  EXPECT_EQ(alarm.display, vertex.display) << "a fragment's depth breaks the bound that its proxy promises";
+  const Picture compute = draw(scene, view, {.expansion = Expansion::Compute});
+  expect_equals_reference(compute, scene, view, bars);
+  expect_same_surfaces(compute, vertex);
+  return vertex;
+}
+
+std::vector<glm::dvec4> cloud(std::size_t n, double half, double r_min, double r_max, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> u(-1, 1);
+  std::vector<glm::dvec4> spheres;
+  for (std::size_t i = 0; i < n; ++i)
+    spheres.emplace_back(u(random) * half, u(random) * half, u(random) * half, r_min * std::pow(r_max / r_min, 0.5 * (u(random) + 1)));
+  return spheres;
+}
+
+Scene placed(Scene scene, const std::vector<glm::dmat4>& instances) {
+  Batch& batch = scene.batches.at(0);
+  batch.instances.clear();
+  scene.bounds = {};
+  for (const glm::dmat4& m : instances) {
+    batch.instances.push_back({m});
+    const Bounds& data = batch.chunks->bounds;
+    for (int i = 0; i < 8; ++i) {
+      const glm::dvec3 corner(i & 1 ? data.max.x : data.min.x, i & 2 ? data.max.y : data.min.y, i & 4 ? data.max.z : data.min.z);
+      scene.bounds.add(glm::dvec3(m * glm::dvec4(corner, 1.0)));
+    }
+  }
+  return scene;
 }
 
 Scene scene_of(const std::vector<glm::dvec4>& spheres, const std::vector<std::uint32_t>& colors) {

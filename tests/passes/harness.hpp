@@ -26,6 +26,11 @@ struct Picture {
   [[nodiscard]] std::size_t at(std::uint32_t x, std::uint32_t y) const { return std::size_t{y} * size.width + x; }
 };
 
+struct Bars {
+  double least_hits{};           // fraction of the pixels: the picture shows something
+  double most_ambiguous{0.01};   // fraction of the pixels: most of them count
+  double depth_factor{1.0};      // times the bars on depth: the eye near a surface, see docs/accuracy.md
+};
 class GpuTest : public ::testing::Test {
 protected:
   void SetUp() override;
@@ -34,18 +39,19 @@ protected:
   // `settings`: "pass.param=value" each.
   Picture draw(const Scene& scene, const View& view, const passes::FrameOptions& options = {},
                const std::vector<std::string>& settings = {});
+  // Draws with both expansions, which must agree bit for bit, against the reference, and with the alarm of FC-29 on.
+  Picture check(const Scene& scene, const View& view, const Bars& bars = {});
 };
 
 // Spheres (x, y, z, r) as one batch of a scene with one head light of 0.8 and an ambient of 0.2 on white.
 Scene scene_of(const std::vector<glm::dvec4>& spheres, const std::vector<std::uint32_t>& colors = {});
+// n spheres in a cube of half edge `half`, radii log-uniform.
+std::vector<glm::dvec4> cloud(std::size_t n, double half, double r_min, double r_max, unsigned seed = 3);
+// The scene with its one batch placed by `instances`; bounds follow.
+Scene placed(Scene scene, const std::vector<glm::dmat4>& instances);
 View look(const Scene& scene, glm::dvec3 eye, glm::dvec3 target, Size2d size, double fov_y = 30.0);
 View look_orthographic(const Scene& scene, glm::dvec3 eye, glm::dvec3 target, Size2d size, double height);
 
-struct Bars {
-  double least_hits{};           // fraction of the pixels: the picture shows something
-  double most_ambiguous{0.01};   // fraction of the pixels: most of them count
-  double depth_factor{1.0};      // times the bars on depth: the eye near a surface, see docs/accuracy.md
-};
 // GPU picture against the reference, with the bars of the contracts: equal ids outside ambiguous pixels; depth
 // median <= 6e-8 and 99th percentile <= 2.5e-7 relative; normals' 99th percentile <= 1e-6 + 1.5e-4 / R.
 void expect_equals_reference(const Picture& picture, const Scene& scene, const View& view, const Bars& bars = {});

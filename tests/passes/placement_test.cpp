@@ -99,7 +99,16 @@ TEST(Placement, ParticlesNearTheEyeArePlacedInDouble) {
   ASSERT_EQ(out.near.size(), 1u);
   ASSERT_EQ(out.payloads.size(), chunk_capacity);
   const double exact = 1000.001 * 1000.001 - 1e6;
-  EXPECT_NEAR(out.payloads[0].power_rest.x, exact, 1e-6 * exact);
+  EXPECT_NEAR(double(out.payloads[0].rest_power.w) + double(out.payloads[0].power_rest.x), exact, 1e-9 * exact);
+  // A float32 center forgets half a ulp, 3e-5 at this distance; the rest holds it.
+  const View aside = view_from({0.1, 0.3, 1000.7}, {0, 0, 0});
+  PlacedChunks beside;
+  place_chunks(set, 0, 1, {}, aside, ViewCuller(aside), beside);
+  ASSERT_EQ(beside.payloads.size(), chunk_capacity);
+  const glm::dvec3 center = aside.to_view({0, 0, 0});
+  const NearPayload& p = beside.payloads[0];
+  EXPECT_LT(glm::length(glm::dvec3(p.center_radius) + glm::dvec3(p.rest_power) - center), 1e-11);
+  EXPECT_GT(glm::length(glm::dvec3(p.center_radius) - center), 1e-8);
   const View away = view_from({0, 0, 1e6}, {0, 0, 0});
   place_chunks(set, 0, 1, {}, away, ViewCuller(away), out);
   EXPECT_EQ(out.near.size(), 1u) << "from far away the chunk is not near";

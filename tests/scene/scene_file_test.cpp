@@ -202,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"range = \"auto\"", "range = \"wide\"", "S004", "\"auto\" or [low, high]"},
         Broken{"model = \"blinn_phong\"", "model = \"toon\"", "S006", "lambert, phong, blinn_phong"},
         Broken{"assembly = \"none\"", "assembly = 1", "S004", "data[0].assembly takes a text"},
-        Broken{"{ scale = 2 }", "{ scale = [1, 2, 3] }", "S014", "spheres into ellipsoids"},
+        Broken{"{ scale = 2 }", "{ scale = [1, 2, 1e-7] }", "S013", "thinner than a millionth"},
         Broken{"{ scale = 2 }", "{ scale = 0 }", "S013", "flattens space"},
         Broken{"{ scale = 2 }", "{ scal = 2 }", "S012", "Did you mean 'scale'?"},
         Broken{"{ scale = 2 }", "{ rotate = { axis = [0, 0, 0], angle = 3 } }", "S012", "axis of a rotation is zero"},

@@ -13,7 +13,7 @@ class TileRects {
 public:
   explicit TileRects(const View& view)
       : view_(view), perspective_(view.projection == Projection::Perspective),
-        offset_(view.sample_offset - 0.5 * glm::dvec2(view.size.width, view.size.height)),
+        offset_(view.sample_offset - view.center()),
         last_(view.size.width - 1.0, view.size.height - 1.0), least_z_(std::max(view.near_cut, view.depth_near) * (1.0 + 1e-5)) {}
 
   // False: not for tiles. Chunks that cover no pixel center have an empty rectangle: `any` is false.
@@ -82,7 +82,7 @@ void place_range(const ChunkSet& set, std::uint64_t first, std::uint64_t begin, 
     if (!placer.place(set.chunks[first + i], box)) continue;
     bool any = false;
     const double radius = placer.scale() * double{set.chunks[first + i].max_radius};
-    if (!rects.place(box, radius, tiled, any) || (box.near && box.distance < 2 * radius)) {
+    if (!placer.similar() || !rects.place(box, radius, tiled, any) || (box.near && box.distance < 2 * radius)) {
       placer.add(set, first + i, i, box, out.rest);
     } else if (any && box.near) {
       add_near(set, first + i, placer, box, tiled, out);

@@ -24,6 +24,9 @@ layout(location = 3 + payload_vec4s) flat out uint v_batch;
 #endif
 
 void main() {
+#ifdef ORDERED
+  batch_index = g_batch[0];
+#endif
   Particle particle = unpack(g_payload[0]);
   Proxy bounds = proxy(particle);
   if (!selected(g_color[0].a) || !drawable(particle) || bounds.lo.x > bounds.hi.x || bounds.lo.y > bounds.hi.y) return;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Particle type `sphere`: record (center relative to its chunk, radius). Formulas: method book,
 // sections 3.1 (intersection, form N) and 4.1 (bounds; for spheres Mara & McGuire, JCGT 2(2), 2013).
+// With AFFINE the placement is no similarity and the sphere becomes an ellipsoid: affine.glsl.
 
 const int record_vec4s = 1;
 #ifdef NEAR_EYE
-const int payload_vec4s = 2;
+const int payload_vec4s = 3;
 #else
 const int payload_vec4s = 1;
 #endif
@@ -13,27 +14,38 @@ struct Particle {
   vec3 center; // view space
   float radius;
 #ifdef NEAR_EYE
-  float power; // |center|^2 - radius^2, formed in double
   vec3 rest;   // center - float32(center)
+  vec2 power;  // |center|^2 - radius^2, formed in double, as a sum of two floats (AFFINE: where the ellipsoid is the unit sphere)
 #endif
 };
 
 #ifdef NEAR_EYE
-Particle unpack(vec4 payload[payload_vec4s]) { return Particle(payload[0].xyz, payload[0].w, payload[1].x, payload[1].yzw); }
+Particle unpack(vec4 payload[payload_vec4s]) {
+  return Particle(payload[0].xyz, payload[0].w, payload[1].xyz, vec2(payload[1].w, payload[2].x));
+}
 void pack(Particle p, out vec4 payload[payload_vec4s]) {
   payload[0] = vec4(p.center, p.radius);
-  payload[1] = vec4(p.power, p.rest);
+  payload[1] = vec4(p.rest, p.power.x);
+  payload[2] = vec4(p.power.y, 0.0, 0.0, 0.0);
 }
 #else
 Particle place(vec4 record[record_vec4s], Placement at) {
   precise vec3 center = at.linear * record[0].xyz + at.origin;
+#ifdef AFFINE
+  return Particle(center, record[0].w);
+#else
   return Particle(center, record[0].w * at.scale);
+#endif
 }
 Particle unpack(vec4 payload[payload_vec4s]) { return Particle(payload[0].xyz, payload[0].w); }
 void pack(Particle p, out vec4 payload[payload_vec4s]) { payload[0] = vec4(p.center, p.radius); }
 #endif
 
 bool drawable(Particle p) { return p.radius > 0.0; }
+
+#ifdef AFFINE
+#include "affine.glsl"
+#else
 
 // Extent of x / z (or y / z) over the part of the sphere with z >= n, as (min, max); m = (x or y, z) of the center.
 vec2 tangent_extent(vec2 m, float r, float n) {
@@ -73,6 +85,30 @@ Proxy proxy(Particle p) {
 }
 
 // The interval of the ray inside the sphere. Misses give false.
+#ifdef NEAR_EYE
+// Form P in numbers of twice the precision: the product of the roots is the power of the eye, which a difference of the
+// roots' middle and half chord would lose where the surface is much nearer than the center; the other root is a sum of equal
+// signs. Rays that graze a surface divide the rounding of everything here by the angle of incidence.
+bool intersect(Ray ray, Particle p, out Interval hit) {
+  if (orthographic) { // already at the point nearest to the center: no distance enters
+    vec3 l = vec3((ray.origin.xy - p.center.xy) + (ray.rest.xy - p.rest.xy), 0.0);
+    float distance = length(l);
+    float d2 = (p.radius - distance) * (p.radius + distance);
+    float h = sqrt(max(d2, 0.0));
+    hit = Interval(p.center.z - h, p.center.z + h, vec4(l, h));
+    return d2 >= 0.0;
+  }
+  vec2 d_d = dot_pair(ray.direction, ray.rest, ray.direction, ray.rest);
+  vec2 b = dot_pair(p.center, p.rest, ray.direction, ray.rest);
+  vec2 d2 = minus(times(b, b), times(d_d, p.power));
+  float root = sqrt(max(d2.x, 0.0));
+  float q = b.x + (b.x >= 0.0 ? root + b.y : b.y - root);
+  float t1 = q / d_d.x, t2 = p.power.x / q;
+  vec3 l = along_minus(divided(b, d_d), ray.direction, ray.rest, p.center, p.rest);
+  hit = Interval(min(t1, t2), max(t1, t2), vec4(l, root / d_d.x));
+  return d2.x >= 0.0;
+}
+#else
 bool intersect(Ray ray, Particle p, out Interval hit) {
   vec3 l;
   float middle;
@@ -85,31 +121,17 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
   float distance = length(l);
   float d2 = (p.radius - distance) * (p.radius + distance); // never r^2 - l^2: cancels at the limb
   float h = sqrt(max(d2, 0.0) * (1.0 / dot(ray.direction, ray.direction)));
-#ifdef NEAR_EYE
-  // Form P: the product of the roots is the power of the eye, which middle - h would lose to cancellation where the
-  // surface is much nearer than the center; the other root is a sum of equal signs. Of the two discriminants the one
-  // with the smaller terms is the better.
-  float d_d = dot(ray.direction, ray.direction);
-  float b = dot_exact(p.center, ray.direction) + dot(p.rest, ray.direction);
-  bool by_power = b * b + d_d * abs(p.power) < d_d * p.radius * p.radius;
-  float root = by_power ? sqrt(max(b * b - d_d * p.power, 0.0)) : h * d_d;
-  float q = b + (b >= 0.0 ? root : -root);
-  float t1 = q / d_d, t2 = p.power / q;
-  hit.t_in = orthographic ? middle - h : min(t1, t2);
-  hit.t_out = orthographic ? middle + h : max(t1, t2);
-#else
-  hit.t_in = middle - h;
-  hit.t_out = middle + h;
-#endif
-  hit.local = vec4(l, h);
+  hit = Interval(middle - h, middle + h, vec4(l, h));
   return d2 >= 0.0;
 }
+#endif
 
 // From the local hit point, never from hit - center, which would lose the ratio distance / radius.
 vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) {
   float h = exit ? hit.local.w : -hit.local.w;
   return (hit.local.xyz + h * ray.direction) * (1.0 / p.radius);
 }
+#endif
 
 #ifdef TILES
 // The rectangle in tangents of a sphere wholly before the eye: roots of (z^2 - r^2) h^2 - 2 x z h + (x^2 - r^2) = 0, to a
