@@ -52,7 +52,7 @@ inline constexpr std::array<AppCode, 19> app_codes{{
     {code::twice_to_stdout, "usage: two outputs to standard output"},
     {code::panel, "usage: --panel is no number of pixels from 16, or a dump of a picture that is drawn in panels"},
     {code::alpha_ignored, "warning: the graph has no pass for transparent particles"},
-    {code::shadows_ignored, "warning: shadows are not drawn"},
+    {code::shadows_ignored, "warning: a light asks for shadows, but the graph has no shadow_map pass for it"},
     {code::tolerance_ignored, "warning: the tolerance is not used"},
 }};
 

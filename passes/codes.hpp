@@ -8,7 +8,7 @@
 
 namespace mote::passes {
 
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 7> pass_codes{{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 15> pass_codes{{
     {"G031", "error: a draw list names a particle type that does not exist"},
     {"P001", "failed: a particle type cannot be drawn by the expansion that was asked for, or the device cannot"},
     {"P002", "failed: a shader that is made at run time does not compile"},
@@ -16,6 +16,14 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 7> pa
     {"P004", "failed: a scene has more transparent particles than one order can hold on the device"},
     {"P005", "warning: the lists of exact transparency were too small for a row of pixels"},
     {"P006", "error: parameters of a pass that do not go together"},
+    {"P007", "error: a number of samples that the pattern cannot make"},
+    {"P010", "error: the shader of a pass from a file, or its pass.toml, cannot be read"},
+    {"P011", "error: a pass.toml says something that it cannot"},
+    {"P013", "error: the shader of a pass from a file uses what its pass.toml does not declare"},
+    {"P014", "error: what is connected to a pass from a file has other texels than its pass.toml declares"},
+    {"P015", "error: a shadow map is for a light that the scene does not have"},
+    {"P016", "failed: a scene has more different materials than shading with shadow maps can tell apart"},
+    {"P017", "error: a shadow map is for a light that one map cannot hold"},
 }};
 
 } // namespace mote::passes

@@ -4,8 +4,10 @@
 //   FrameOptions       how to draw this frame
 //   ParticleStore      the particles on the device (particles/particle_store.hpp)
 //   DisplaySettings    the display transform in force (ocio_tonemap only)
+//   PassReports        optional: where problems go that do not stop the frame (passes from files)
 #pragma once
 
+#include "core/base/diagnostic.hpp"
 #include "core/color/color_config.hpp"
 
 #include <cstdint>
@@ -26,6 +28,11 @@ bool parse_expansion(std::string_view name, Expansion& out);
 struct FrameOptions {
   Expansion expansion{Expansion::Auto};
   bool show_depth_violation{}; // tests: fragments whose depth breaks the conservative bound are magenta (FC-29)
+};
+
+// Optional in a FrameInput: who hears what goes wrong without stopping a frame (a shader file that was changed and is broken).
+struct PassReports {
+  std::function<void(const Diagnostic&)> report{};
 };
 
 // The display transform in force. Display and view named by the graph's pass win over these; exposures add.

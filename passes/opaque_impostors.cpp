@@ -8,6 +8,10 @@
 #include "passes/particles/quad_indices.hpp"
 #include "passes/particles/selection.hpp"
 #include "passes/particles/tiles/tile_renderer.hpp"
+#include "passes/sampling/accumulator.hpp"
+#include "passes/sampling/pattern.hpp"
+#include "passes/scratch.hpp"
+#include "passes/shadows/surface_shading.hpp"
 #include "passes/states.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +19,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace mote::passes {
 namespace {
@@ -45,6 +51,11 @@ public:
                        .makes = rg::TextureSpec{.format = aov.format}, .optional = true, .copied_into = true});
     selection_ = read_selection(params, params.has("blend") ? Opacity::All : Opacity::Opaque);
     states_ = read_states(params);
+    read_shadow_slots(slots, params);
+    offsets_ = read_samples(params);
+    analytic_edges_ = params.word("edges", "sampled", {"sampled", "analytic"}, "analytic: outlines blended by what they cover of a pixel") == "analytic";
+    if (analytic_edges_ && (offsets_.size() > 1 || params.has("blend")))
+      params.error("P006", "edges", fmt::format("is \"analytic\", which does not go with {}", offsets_.size() > 1 ? "several samples a pixel" : "blend"));
   }
 
   void prepare(rg::PassContext& context) override {
@@ -54,6 +65,8 @@ public:
     for (const AovSlot& aov : aov_slots)
       if (context.connected(aov.name)) aovs_ |= aov.bit;
     depth_ = context.format("depth");
+    deferred_ = std::any_of(shadow_slots_.begin(), shadow_slots_.end(), [&](const std::string& slot) { return context.connected(slot); });
+    if (deferred_ && states_.blend != 0) fail(Exit::BadInput, "P006", {}, "a pass with a shadow map shades each pixel once; it does not go with blend");
   }
 
   gpu::Color clear_value(std::string_view slot, const rg::FrameInput& frame) override {
@@ -80,7 +93,15 @@ public:
     const bool tiled = expansion == Expansion::Compute && record_tiles(context, store);
     if (!tiled) placed_ = store.place(scene, view);
     if (tiled && tiled_.rest.draws.empty()) return;
-    record_draws(context, tiled ? tiled_.rest : placed_, expansion == Expansion::Geometry ? expansion : Expansion::Vertex, tiled);
+    raster_ = expansion == Expansion::Geometry ? expansion : Expansion::Vertex;
+    reserve_indices(device, tiled ? tiled_.rest : placed_);
+    if (deferred_) update_surfaces(context, surfaces_, false);
+    if (offsets_.size() > 1) return record_samples(context);
+    if (analytic_edges_) return record_edges(context);
+    if (deferred_) return draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_.get());
+    gpu::RenderPass pass = context.begin_attachments(tiled);
+    draw_particles(context, pass, tiled ? tiled_.rest : placed_, {frame_group_, targets_, aovs_}, nullptr);
+    pass.end();
   }
 
 private:
@@ -126,36 +147,139 @@ private:
     return selected_;
   }
 
-  void record_draws(rg::PassContext& context, const PlacedView& placed, Expansion expansion, bool loaded) {
-    const Scene& scene = context.frame().get<Scene>();
-    const View& view = context.frame().get<View>();
+  void reserve_indices(gpu::Device& device, const PlacedView& placed) {
     std::uint32_t most = 0;
     for (const ParticleDraw& draw : placed.draws) most = std::max(most, draw.particles);
-    gpu::Device device = context.device();
-    if (expansion == Expansion::Vertex) indices_.reserve(device, most);
-    gpu::RenderPass pass = context.begin_attachments(loaded);
+    if (raster_ == Expansion::Vertex) indices_.reserve(device, most);
+  }
+
+  struct Into {
+    gpu::BindGroup frame{};
+    std::vector<TextureFormat> formats{};
+    std::uint32_t aovs{};
+  };
+  struct Targets { // views of attachments, color first, and what they are cleared to
+    std::vector<gpu::TextureView> views{};
+    std::vector<gpu::Color> clear{};
+    [[nodiscard]] std::vector<gpu::ColorAttachment> attachments() const {
+      std::vector<gpu::ColorAttachment> out;
+      for (std::size_t i = 0; i < views.size(); ++i) out.push_back({.view = &views[i], .clear = clear[i]});
+      return out;
+    }
+  };
+
+  void draw_particles(const rg::PassContext& context, gpu::RenderPass& pass, const PlacedView& placed, const Into& into, const SurfaceShading* surfaces) {
+    const Scene& scene = context.frame().get<Scene>();
+    const View& view = context.frame().get<View>();
     for (const ParticleDraw& draw : placed.draws) {
       if (!selection_.draws(*draw.batch)) continue;
+      BatchBlock block = draw.block;
       ParticlePipelineKey key = key_for(scene, view, *draw.batch);
-      key.expansion = expansion;
+      key.expansion = raster_;
       key.near_eye = draw.near_eye;
       key.affine = draw.affine;
-      key.aovs = aovs_;
-      key.targets = targets_;
+      key.targets = into.formats;
       key.depth = depth_;
+      key.aovs = into.aovs;
       key.opaque_only = key.per_particle_color && selection_.opacity == Opacity::Opaque;
       key.states = states_;
       key.show_depth_violation = context.frame().get<FrameOptions>().show_depth_violation;
+      if (surfaces) {
+        unlit(key);
+        key.phase = Phase::Surface;
+        key.edges = surfaces->edges();
+        key.proxy_slack = key.edges ? 0.75f : 0.0f;
+        block.material.x = static_cast<float>(surfaces->material_of(*draw.batch));
+      }
       pass.set_pipeline(pipelines_->get(key));
-      pass.set_bind_group(0, frame_group_);
+      pass.set_bind_group(0, into.frame);
       pass.set_bind_group(1, draw.group);
-      pass.set_push_constants(0, std::as_bytes(std::span(&draw.block, 1)));
-      if (expansion == Expansion::Vertex)
+      pass.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
+      if (raster_ == Expansion::Vertex)
         indices_.draw(pass, draw.particles);
       else
         pass.draw(draw.particles);
     }
+  }
+
+  [[nodiscard]] Targets own_targets(const rg::PassContext& context) {
+    Targets out;
+    for (const std::string& slot : context.color_slots()) {
+      out.views.push_back(context.texture(slot));
+      out.clear.push_back(clear_value(slot, context.frame()));
+    }
+    return out;
+  }
+
+  // The picture of one sample offset. With `surfaces`: what all particles leave there, then each pixel's shading once.
+  void draw_picture(rg::PassContext& context, const gpu::BindGroup& frame, const Targets& targets, std::uint32_t aovs, const gpu::TextureView& depth,
+                    SurfaceShading* surfaces) {
+    const std::vector<gpu::ColorAttachment> colors = targets.attachments(), drawn = surfaces ? surfaces->attachments() : colors;
+    Into into{frame, {}, surfaces ? 0 : aovs};
+    for (const gpu::ColorAttachment& attachment : drawn) into.formats.push_back(attachment.view->format());
+    gpu::RenderPass pass = context.encoder().begin_render_pass({.label = "particles", .colors = drawn, 
+         .depth = gpu::DepthAttachment{.view = &depth, .clear = static_cast<float>(cleared_depth(states_))}});
+    draw_particles(context, pass, placed_, into, surfaces);
     pass.end();
+    if (surfaces) surfaces->record(context.encoder(), frame, colors, aovs);
+  }
+
+  void update_surfaces(rg::PassContext& context, std::unique_ptr<SurfaceShading>& surfaces, bool edges) {
+    if (!surfaces) surfaces = std::make_unique<SurfaceShading>(context.device(), pipelines_->frame_layout(), edges);
+    const ShadowMaps& maps = context.frame().get<ParticleStore>().shadow_maps();
+    std::vector<MappedLight> lights;
+    for (const std::string& slot : shadow_slots_)
+      if (const gpu::Texture map = context.connected(slot) ? context.whole_texture(slot) : gpu::Texture())
+        if (const ShadowMapInfo* info = maps.find(map)) lights.push_back({map, *info});
+    surfaces->update(context.frame().get<Scene>(), context.frame().get<View>(), lights);
+  }
+
+  // Depth and AOVs are those of the pixel's center, from a picture of their own, if anybody looks at them.
+  void record_center(rg::PassContext& context) {
+    if (aovs_ != 0 || context.kept("depth"))
+      draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), deferred_ ? surfaces_.get() : nullptr);
+  }
+
+  void record_edges(rg::PassContext& context) {
+    update_surfaces(context, edge_surfaces_, true);
+    record_center(context);
+    const Size2d size = context.frame().get<View>().size;
+    gpu::Device device = context.device();
+    if (make_scratch(device, edge_depth_, "edges.depth", {size.width, size.height, 1}, depth_)) edge_depth_view_ = edge_depth_.create_view();
+    const Targets picture{{context.texture("color")}, {clear_value("color", context.frame())}};
+    draw_picture(context, frame_group_, picture, 0, edge_depth_view_, edge_surfaces_.get());
+  }
+
+  // One picture a sample, averaged.
+  void record_samples(rg::PassContext& context) {
+    const Scene& scene = context.frame().get<Scene>();
+    View view = context.frame().get<View>();
+    gpu::Device device = context.device();
+    if (!accumulator_) accumulator_ = std::make_unique<Accumulator>(device, static_cast<std::uint32_t>(offsets_.size()));
+    accumulator_->update(view.size.width, view.size.height);
+    const glm::dvec2 center = view.sample_offset;
+    const gpu::TextureView color = context.texture("color");
+    record_center(context);
+    const Targets picture{{accumulator_->picture()}, {clear_value("color", context.frame())}};
+    for (std::size_t i = 0; i < offsets_.size(); ++i) {
+      view.sample_offset = center + offsets_[i] - 0.5;
+      if (i == sample_frames_.size()) sample_frames_.push_back(make_frame(device));
+      const FrameBlock block = frame_block(scene, view);
+      device.queue().write_buffer(sample_frames_[i].first, 0, std::as_bytes(std::span(&block, 1)));
+      draw_picture(context, sample_frames_[i].second, picture, 0, accumulator_->depth(), deferred_ ? surfaces_.get() : nullptr);
+      accumulator_->add(context.encoder(), i == 0);
+    }
+    accumulator_->resolve(context.encoder(), color);
+  }
+
+  // One input a shadow map: "shadow", "shadow_2", ...
+  void read_shadow_slots(std::vector<rg::Slot>& slots, rg::Params& params) {
+    shadow_slots_.clear();
+    const auto count = params.integer("shadows", 1, {.min = 0, .max = max_lights}, "how many inputs for shadow maps: shadow, shadow_2, ...");
+    for (std::int64_t i = 1; i <= count; ++i) {
+      shadow_slots_.push_back(i == 1 ? "shadow" : fmt::format("shadow_{}", i));
+      slots.push_back({.name = shadow_slots_.back(), .access = rg::Access::Sampled, .summary = "map of a shadow_map pass", .optional = true});
+    }
   }
 
   // Auto is the vertex expansion: it works everywhere and was never slower. What is asked for and cannot be is P001.
@@ -177,6 +301,8 @@ private:
   // What tiles cannot do, and is not done otherwise unasked: P001.
   void check_tiles(const Scene& scene) const {
     const std::vector<std::string> hints{"--expansion vertex or geometry can"};
+    if (deferred_ || analytic_edges_ || offsets_.size() > 1)
+      fail(Exit::Failed, "P001", {}, fmt::format("expansion 'compute' cannot draw with {}", deferred_ ? "shadow maps" : analytic_edges_ ? "analytic edges" : "several samples a pixel"), hints);
     if (states_ != DrawStates{}) fail(Exit::Failed, "P001", {}, "expansion 'compute' draws with the default depth_test, depth_write, blend and cull only", hints);
     for (const Batch& batch : scene.batches)
       if (selection_.opacity == Opacity::Opaque && selection_.draws(batch) && has_own_alpha(batch))
@@ -185,14 +311,20 @@ private:
 
   void make_frame_group(gpu::Device& device, const ParticleStore& store) {
     pipelines_ = std::make_unique<ParticlePipelines>(device, store.layout());
-    frame_buffer_ = device.create_buffer({.label = "frame", .size = sizeof(FrameBlock),
-                                          .usage = gpu::BufferUsage::Uniform | gpu::BufferUsage::CopyDst});
-    const std::array entries{gpu::BindGroupEntry{.binding = 0, .buffer = {&frame_buffer_}}};
-    frame_group_ = device.create_bind_group({.label = "frame", .layout = &pipelines_->frame_layout(), .entries = entries});
+    std::tie(frame_buffer_, frame_group_) = make_frame(device);
+  }
+  std::pair<gpu::Buffer, gpu::BindGroup> make_frame(gpu::Device& device) {
+    const gpu::Buffer buffer = device.create_buffer({.label = "frame", .size = sizeof(FrameBlock),
+                                                     .usage = gpu::BufferUsage::Uniform | gpu::BufferUsage::CopyDst});
+    const std::array entries{gpu::BindGroupEntry{.binding = 0, .buffer = {&buffer}}};
+    return {buffer, device.create_bind_group({.label = "frame", .layout = &pipelines_->frame_layout(), .entries = entries})};
   }
 
   Selection selection_;
   DrawStates states_;
+  std::vector<std::string> shadow_slots_;
+  bool deferred_{}; // a shadow map is connected: surfaces first, shaded once
+  Expansion raster_{Expansion::Vertex}; // of what is not drawn in tiles
   std::vector<TextureFormat> targets_;
   TextureFormat depth_{};
   std::uint32_t aovs_{};
@@ -204,6 +336,13 @@ private:
   TiledView tiled_;
   Scene selected_; // alive while its draws are recorded
   std::unique_ptr<TileRenderer> tiles_;
+  std::unique_ptr<SurfaceShading> surfaces_, edge_surfaces_;
+  bool analytic_edges_{};
+  gpu::Texture edge_depth_;
+  gpu::TextureView edge_depth_view_;
+  std::vector<glm::dvec2> offsets_; // samples in a pixel; one: its center
+  std::vector<std::pair<gpu::Buffer, gpu::BindGroup>> sample_frames_;
+  std::unique_ptr<Accumulator> accumulator_;
 };
 
 } // namespace

@@ -96,11 +96,11 @@ private:
   int make_resource(int v, bool state, std::uint32_t position) {
     const Version& version = r_.versions[at(v)];
     if (const auto* buffer = std::get_if<BufferSpec>(&version.spec)) {
-      plan_.buffers.push_back({r_.name(v), *buffer, gpu::BufferUsage::CopyDst, position, position, 0, state}); // CopyDst: passes clear and fill
+      plan_.buffers.push_back({r_.name(v), *buffer, gpu::BufferUsage::CopyDst, position, position, 0, state, version.loc}); // CopyDst: passes clear and fill
       return static_cast<int>(plan_.buffers.size()) - 1;
     }
     const auto usage = state ? gpu::TextureUsage::CopyDst : gpu::TextureUsage::None; // set to zero when reset
-    plan_.textures.push_back({r_.name(v), std::get<TextureSpec>(version.spec), usage, position, position, 0, state});
+    plan_.textures.push_back({r_.name(v), std::get<TextureSpec>(version.spec), usage, position, position, 0, state, version.loc});
     return static_cast<int>(plan_.textures.size()) - 1;
   }
 

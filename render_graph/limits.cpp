@@ -47,13 +47,14 @@ std::uint64_t bytes_of(const Plan& plan, std::uint32_t view_width, std::uint32_t
 
 Diagnostics check_limits(const Plan& plan, const gpu::Limits& limits, std::uint32_t view_width, std::uint32_t view_height) {
   Diagnostics out;
-  const SourceLoc place{plan.name};
+  SourceLoc place{plan.name};
   const auto check = [&](std::string_view what, std::string_view name, std::uint64_t value, std::uint64_t limit) {
     if (value > limit)
       out.error("G070", place, fmt::format("{} of '{}' is {} for a view of {}x{}, but the device allows {}.", what, name, value, view_width, view_height, limit));
   };
   for (const PlannedTexture& t : plan.textures) {
     const gpu::Extent3d size = extent_of(t.spec, view_width, view_height);
+    place = place_of(plan, t);
     const bool d3 = t.spec.dimension == gpu::TextureDimension::D3;
     const std::uint32_t side = d3 ? limits.max_texture_dimension_3d : t.spec.dimension == gpu::TextureDimension::D1 ? limits.max_texture_dimension_1d : limits.max_texture_dimension_2d;
     check("the width", t.name, size.width, side);
@@ -61,8 +62,11 @@ Diagnostics check_limits(const Plan& plan, const gpu::Limits& limits, std::uint3
     check(d3 ? "the depth" : "the number of layers", t.name, size.depth_or_layers, d3 ? side : limits.max_texture_array_layers);
     check("the number of mips", t.name, t.spec.mips, gpu::max_mip_levels(size, t.spec.dimension));
   }
-  for (const PlannedBuffer& b : plan.buffers)
+  for (const PlannedBuffer& b : plan.buffers) {
+    place = place_of(plan, b);
     check("the size in bytes", b.name, bytes_of(b.spec, view_width, view_height), std::min(limits.max_buffer_size, limits.max_storage_buffer_binding_size));
+  }
+  place = {plan.name};
   for (const PlannedPass& pass : plan.passes) {
     const auto colors = std::count_if(pass.uses.begin(), pass.uses.end(), [](const Use& use) { return is_color(use.access); });
     check("the number of color attachments", pass.name, static_cast<std::uint64_t>(colors), limits.max_color_attachments);

@@ -44,7 +44,10 @@ struct PlannedTexture {
   std::uint32_t first{}, last{}; // passes, inclusive
   std::uint32_t physical{};      // textures with the same number share memory, one after the other
   bool state{};
-  bool operator==(const PlannedTexture&) const = default;
+  SourceLoc loc{};               // where the file speaks of it, else its pass; does not count in ==
+  bool operator==(const PlannedTexture& o) const {
+    return name == o.name && spec == o.spec && usage == o.usage && first == o.first && last == o.last && physical == o.physical && state == o.state;
+  }
 };
 struct PlannedBuffer {
   std::string name{};
@@ -52,7 +55,10 @@ struct PlannedBuffer {
   gpu::BufferUsage usage{};
   std::uint32_t first{}, last{}, physical{};
   bool state{};
-  bool operator==(const PlannedBuffer&) const = default;
+  SourceLoc loc{};
+  bool operator==(const PlannedBuffer& o) const {
+    return name == o.name && spec == o.spec && usage == o.usage && first == o.first && last == o.last && physical == o.physical && state == o.state;
+  }
 };
 
 // A source that somebody wants after the frame. If a later pass draws over it, it is copied first.
@@ -89,6 +95,10 @@ std::string to_dot(const Plan& plan); // Graphviz: passes boxes, resources ellip
 
 // What of the plan this device and view size do not allow: G070. Pure.
 Diagnostics check_limits(const Plan& plan, const gpu::Limits& limits, std::uint32_t view_width, std::uint32_t view_height);
+// Where a texture or buffer is spoken of; the plan's name where nobody does.
+template <class Planned> SourceLoc place_of(const Plan& plan, const Planned& planned) {
+  return planned.loc.file.empty() ? SourceLoc{plan.name} : planned.loc;
+}
 // Size of a texture for a view, and bytes of a buffer. Factors round to the nearest, at least 1.
 gpu::Extent3d extent_of(const TextureSpec& spec, std::uint32_t view_width, std::uint32_t view_height);
 std::uint64_t bytes_of(const BufferSpec& spec, std::uint32_t view_width, std::uint32_t view_height);

@@ -34,8 +34,8 @@ template <class Planned> std::size_t count_physical(const std::vector<Planned>& 
   return count;
 }
 
-[[noreturn]] void out_of_memory(const Plan& plan, ViewSize view, const std::string& name, const std::string& why) {
-  fail(Exit::Failed, "G071", {plan.name}, fmt::format("'{}' cannot be made for a view of {}x{}: {}", name, view.width, view.height, why),
+template <class Planned> [[noreturn]] void out_of_memory(const Plan& plan, ViewSize view, const Planned& planned, const std::string& why) {
+  fail(Exit::Failed, "G071", place_of(plan, planned), fmt::format("'{}' cannot be made for a view of {}x{}: {}", planned.name, view.width, view.height, why),
        {fmt::format("the whole graph takes {} MiB at this size.", bytes_of(plan, view.width, view.height) >> 20)});
 }
 
@@ -67,7 +67,7 @@ bool Resources::make_textures(ViewSize view) {
     device_.push_error_scope(gpu::ErrorFilter::OutOfMemory);
     texture = device_.create_texture({.label = planned.name, .size = size, .format = planned.spec.format, .usage = usage_of(plan_.textures, planned.physical),
                                       .dimension = planned.spec.dimension, .mip_level_count = planned.spec.mips});
-    if (const auto error = device_.pop_error_scope()) out_of_memory(plan_, view, planned.name, error->message);
+    if (const auto error = device_.pop_error_scope()) out_of_memory(plan_, view, planned, error->message);
     fresh_textures_[i] = planned.state;
     made = true;
   }
@@ -84,7 +84,7 @@ bool Resources::make_buffers(ViewSize view) {
     buffer = {};
     device_.push_error_scope(gpu::ErrorFilter::OutOfMemory);
     buffer = device_.create_buffer({.label = planned.name, .size = size, .usage = usage_of(plan_.buffers, planned.physical)});
-    if (const auto error = device_.pop_error_scope()) out_of_memory(plan_, view, planned.name, error->message);
+    if (const auto error = device_.pop_error_scope()) out_of_memory(plan_, view, planned, error->message);
     fresh_buffers_[i] = planned.state;
     made = true;
   }

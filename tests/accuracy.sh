@@ -47,3 +47,10 @@ scene far_away.toml 1000000 ''
 row "packing, orthographic" "$work/orthographic.toml"
 row "packing, near cut" "$work/near.toml"
 row "packing, moved by 1e6" "$work/far_away.toml"
+
+# Shadows of the benchmark scene at the map's default size, in windows of three shapes.
+shadows=$(dirname "$mote")/tests/passes/passes_gpu
+if [ -x "$shadows" ]; then
+  echo
+  MOTE_ACCURACY=full MOTE_ADAPTER=llvmpipe "$shadows" --gtest_filter=Shadows.TheBenchmarkSceneAtTheDefaultSize | grep 'wrong of'
+fi

@@ -11,11 +11,38 @@
 namespace mote::app {
 namespace {
 
+// Names of the lights that the graph's shadow_map passes are for; empty: the first one that casts shadows.
+std::vector<std::string> mapped_lights(const GraphRequest& request) {
+  Diagnostics ignored; // whoever compiles the graph reports
+  rg::GraphDesc graph = load_graph(request, ignored);
+  for (const std::string& setting : request.settings) rg::apply_setting(graph, setting, ignored);
+  std::vector<std::string> names;
+  for (const rg::PassDesc& pass : graph.passes) {
+    if (pass.kind.text != "shadow_map" || !pass.enabled) continue;
+    const rg::Entry* light = rg::find(pass.params, "light");
+    const auto* name = light ? std::get_if<std::string>(&light->value.data) : nullptr;
+    names.push_back(name ? *name : "");
+  }
+  return names;
+}
+
+void warn_of_shadows(const SceneDesc& desc, const GraphRequest& graph, Diagnostics& diagnostics) {
+  if (std::none_of(desc.lights.begin(), desc.lights.end(), [](const Light& l) { return l.shadows; })) return;
+  const std::vector<std::string> mapped = mapped_lights(graph);
+  bool first = true;
+  for (const Light& light : desc.lights) {
+    if (!light.shadows) continue;
+    const bool drawn = std::any_of(mapped.begin(), mapped.end(), [&](const std::string& name) { return name == light.name || (name.empty() && first); });
+    first = false;
+    if (!drawn)
+      diagnostics.warning(code::shadows_ignored, {desc.name},
+                          fmt::format("the light '{}' asks for shadows, but no shadow_map pass of the graph is for it", light.name),
+                          {"The shipped graph 'shadowed' draws those of one light."});
+  }
+}
+
 // What the scene asks for and no pass draws yet. The list shrinks with every pass kind that is added.
 void warn_of_limits(const SceneDesc& desc, Diagnostics& diagnostics) {
-  for (const Light& light : desc.lights)
-    if (light.shadows)
-      diagnostics.warning(code::shadows_ignored, {desc.name}, fmt::format("the light '{}' asks for shadows: this version draws none", light.name));
   if (desc.tolerance)
     diagnostics.warning(code::tolerance_ignored, desc.tolerance->loc,
                         "the tolerance is not used: this version has one method, which is exact at the pixel centers");
@@ -61,6 +88,7 @@ Job load_job(const JobRequest& request, Diagnostics& diagnostics) {
   if (!request.graph && !job.desc.graph && is_transparent(job.scene)) job.graph.graph = "transparent";
   if (request.transparent) job.scene.background.a = 0.0;
   warn_of_limits(job.desc, diagnostics);
+  warn_of_shadows(job.desc, job.graph, diagnostics);
   check_ids(request, job.scene, diagnostics);
   return job;
 }

@@ -5,6 +5,23 @@
 
 namespace mote::gpu {
 namespace vk {
+namespace {
+
+// Larger images than the driver has room for are refused before it is asked to make them.
+void check_bytes(const DeviceCore& core, const VkImageCreateInfo& info, const TextureDescriptor& d) {
+  VkImageFormatProperties most{};
+  const VkResult known = vkGetPhysicalDeviceImageFormatProperties(core.adapter->physical, info.format, info.imageType, info.tiling, info.usage, info.flags, &most);
+  if (known != VK_SUCCESS) return; // the rules of check_texture decide
+  std::uint64_t bytes = 0;
+  for (std::uint32_t level = 0; level < d.mip_level_count; ++level) {
+    const Extent3d size = mip_extent(d.size, d.dimension, level);
+    bytes += std::uint64_t{size.width} * size.height * size.depth_or_layers * format_info(d.format).bytes;
+  }
+  if (bytes > most.maxResourceSize)
+    out_of_memory("V-MEM-002", "{} asks for {} bytes; the driver gives a texture at most {} bytes.", named("Texture", d.label), bytes, most.maxResourceSize);
+}
+
+} // namespace
 
 void init_texture(Texture::Impl& texture, const TextureDescriptor& d) {
   DeviceCore& core = *texture.core;
@@ -22,6 +39,7 @@ void init_texture(Texture::Impl& texture, const TextureDescriptor& d) {
   info.usage = image_usage(d.usage, depth);
   if (core.fill_new_memory) info.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  check_bytes(core, info, d);
   check(vkCreateImage(core.device, &info, nullptr, &texture.handle), "vkCreateImage");
   core.name(VK_OBJECT_TYPE_IMAGE, texture.handle, texture.label);
   VkMemoryRequirements needs{};

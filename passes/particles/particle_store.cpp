@@ -42,6 +42,7 @@ struct ParticleStore::Impl {
   gpu::BindGroupLayout layout;
   gpu::Buffer nothing; // bound where there are no colors or no near particles; never read
   std::map<const ChunkSet*, Resident> residents;
+  ShadowMaps shadow_maps;
   struct Placements {
     gpu::Buffer buffer{}, near_buffer{};
     SliceBuffers near_slice{}; // of the compute expansion
@@ -78,6 +79,7 @@ ParticleStore::ParticleStore(gpu::Device device) : impl_(std::make_unique<Impl>(
 ParticleStore::~ParticleStore() = default;
 
 const gpu::BindGroupLayout& ParticleStore::layout() const { return impl_->layout; }
+ShadowMaps& ParticleStore::shadow_maps() const { return impl_->shadow_maps; }
 
 Resident ParticleStore::Impl::make_resident(const std::shared_ptr<const ChunkSet>& set) {
   Resident resident{set, {}};

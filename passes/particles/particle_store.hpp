@@ -12,6 +12,7 @@
 #include "core/gpu/gpu.hpp"
 #include "core/scene/scene.hpp"
 #include "passes/particles/tiles/tile_blocks.hpp"
+#include "passes/shadows/shadow_maps.hpp"
 
 #include <glm/glm.hpp>
 
@@ -78,6 +79,8 @@ public:
   void place_tiles(const Scene& scene, const View& view, TiledView& out, std::uint32_t slot = 0) const;
 
   [[nodiscard]] const gpu::BindGroupLayout& layout() const; // of set 1
+  // What this frame's shadow maps were drawn from.
+  [[nodiscard]] ShadowMaps& shadow_maps() const;
 
 private:
   struct Impl;

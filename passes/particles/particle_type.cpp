@@ -11,11 +11,11 @@ namespace {
 
 // One line a type.
 const std::array<ParticleType, 1> types{{
-    {"sphere", "exact sphere: center, radius", 1, {Expansion::Vertex, Expansion::Geometry, Expansion::Compute}, {Phase::Opaque, Phase::Transparent}},
+    {"sphere", "exact sphere: center, radius", 1, {Expansion::Vertex, Expansion::Geometry, Expansion::Compute}, {Phase::Opaque, Phase::Surface, Phase::Transparent, Phase::Shadow}},
 }};
 
 constexpr std::array expansions{Expansion::Vertex, Expansion::Geometry, Expansion::Compute};
-constexpr std::array phases{Phase::Opaque, Phase::Transparent};
+constexpr std::array phases{Phase::Opaque, Phase::Surface, Phase::Transparent, Phase::Shadow};
 
 } // namespace
 
@@ -23,6 +23,8 @@ std::string_view to_string(Phase phase) {
   switch (phase) {
   case Phase::Opaque: return "opaque";
   case Phase::Transparent: return "transparent";
+  case Phase::Surface: return "surface";
+  case Phase::Shadow: return "shadow";
   }
   return "opaque";
 }

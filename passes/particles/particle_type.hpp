@@ -17,7 +17,7 @@
 
 namespace mote::passes {
 
-enum class Phase : std::uint8_t { Opaque, Transparent };
+enum class Phase : std::uint8_t { Opaque, Surface, Transparent, Shadow };
 std::string_view to_string(Phase phase);
 
 struct ParticleType {
@@ -33,7 +33,7 @@ const ParticleType* find_particle_type(std::string_view name);
 std::vector<std::string> particle_type_names();
 bool supports(const ParticleType& type, Expansion expansion, Phase phase);
 
-// "type  expansion  opaque" rows for people.
+// "type  expansion  opaque  surface  shadow" rows for people.
 std::string support_matrix();
 
 } // namespace mote::passes

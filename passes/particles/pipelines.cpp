@@ -14,6 +14,12 @@
 namespace mote::passes {
 namespace {
 constexpr std::size_t most_pipelines = 256; // far above what scenes use; beyond it the cache starts anew
+
+std::string fragment_of(const ParticlePipelineKey& key) {
+  if (key.phase == Phase::Surface) return key.edges ? "surface.frag/edges" : "surface.frag";
+  if (key.phase == Phase::Shadow) return key.targets.empty() ? "shadow.frag/depth" : "shadow.frag/ids";
+  return fmt::format("opaque.frag/aov{}", key.aovs);
+}
 }
 
 std::string to_string(const ParticlePipelineKey& k) {
@@ -43,7 +49,7 @@ std::vector<gpu::SpecializationConstant> particle_constants(const ParticlePipeli
           gpu::spec(2, key.local_lights),       gpu::spec(3, key.specular_model),
           gpu::spec(4, key.per_particle_color), gpu::spec(5, key.show_depth_violation),
           gpu::spec(6, key.head_light_only),    gpu::spec(20, key.opaque_only),
-          gpu::spec(21, key.states.blend != 0), gpu::spec(22, static_cast<std::uint32_t>(key.states.cull))};
+          gpu::spec(21, key.states.blend != 0), gpu::spec(22, static_cast<std::uint32_t>(key.states.cull)), gpu::spec(7, key.proxy_slack)};
 }
 
 ParticlePipelineKey key_for_all(const Scene& scene, const View& view, bool& mixed) {
@@ -57,6 +63,11 @@ ParticlePipelineKey key_for_all(const Scene& scene, const View& view, bool& mixe
     all.head_light_only = all.head_light_only && own.head_light_only;
   }
   return all;
+}
+
+void unlit(ParticlePipelineKey& key) {
+  key.light_count = key.specular_model = 0;
+  key.local_lights = key.head_light_only = false;
 }
 
 ParticlePipelines::ParticlePipelines(gpu::Device device, const gpu::BindGroupLayout& particles) : device_(std::move(device)) {
@@ -88,7 +99,7 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   const bool geometry = key.expansion == Expansion::Geometry;
   const std::string folder = key.type + (key.affine ? "/affine" : "") + (key.near_eye ? "/near" : "");
   const gpu::ShaderModule vertex = module(folder + (geometry ? "/geometry.vert" : "/vertex.vert"));
-  const gpu::ShaderModule fragment = module(fmt::format("{}/opaque.frag/aov{}", folder, key.aovs));
+  const gpu::ShaderModule fragment = module(folder + "/" + fragment_of(key));
   const gpu::ShaderModule geometry_module = geometry ? module(folder + "/geometry.geom") : gpu::ShaderModule();
   const std::vector<gpu::SpecializationConstant> constants = particle_constants(key);
   std::vector<gpu::ColorTargetState> targets;

@@ -35,6 +35,8 @@ struct ParticlePipelineKey {
   bool show_depth_violation{};
   bool opaque_only{}; // particles of alpha below 1 draw as nothing
   DrawStates states{};
+  float proxy_slack{}; // pixels
+  bool edges{};        // phase Surface: coverage, too
   std::vector<gpu::TextureFormat> targets{};
   gpu::TextureFormat depth{};
   auto operator<=>(const ParticlePipelineKey&) const = default;
@@ -50,6 +52,9 @@ std::vector<gpu::SpecializationConstant> particle_constants(const ParticlePipeli
 // The same for all batches of a scene at once, as the tiles need it: the widest of what any of them needs. Phong and
 // Blinn-Phong in one scene are beyond it: then `mixed` is set.
 ParticlePipelineKey key_for_all(const Scene& scene, const View& view, bool& mixed);
+
+// Takes lights and shading out of a key: for phases that do not shade.
+void unlit(ParticlePipelineKey& key);
 
 class ParticlePipelines {
 public:

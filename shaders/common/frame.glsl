@@ -33,6 +33,7 @@ layout(constant_id = 3) const int specular_model = 0;     // 0 none, 1 Phong, 2 
 layout(constant_id = 4) const bool per_particle_color = false;
 layout(constant_id = 5) const bool show_depth_violation = false; // tests: alarm color where FC-29 fails
 layout(constant_id = 6) const bool head_light_only = false; // one head light, no specular: terms are formed once a vertex
+layout(constant_id = 7) const float proxy_slack = 0.0; // pixels by which proxies are larger than their particles on each side
 
 struct Ray {
   vec3 origin;    // view space

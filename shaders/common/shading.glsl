@@ -4,6 +4,11 @@
 #ifndef MOTE_SHADING_GLSL
 #define MOTE_SHADING_GLSL
 
+// How much of light i arrives past what casts shadows: a shader that knows defines it before it includes this.
+#ifndef LIGHT_VISIBILITY
+#define LIGHT_VISIBILITY(i) 1.0
+#endif
+
 struct Surface {
   vec3 position; // view space
   vec3 normal;   // unit, turned to the eye
@@ -35,7 +40,7 @@ vec3 shade(Surface at, vec3 color, vec4 material) {
     vec3 to_light;
     float strength;
     light_at(i, at.position, to_light, strength);
-    vec3 light = frame.lights[i].strength.rgb * strength;
+    vec3 light = frame.lights[i].strength.rgb * (strength * LIGHT_VISIBILITY(i));
     float cosine = dot(at.normal, to_light);
     diffuse += material.y * max(cosine, 0.0) * light;
     if (specular_model != 0) {

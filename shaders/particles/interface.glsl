@@ -9,6 +9,8 @@
 //   bool drawable(Particle)                          false: radius 0 and the like, drawn as nothing
 //   Proxy proxy(Particle)                            bounds on the image
 //   bool intersect(Ray, Particle, out Interval)      where the ray is inside; on a miss the interval is one point
+//   bool passes_thin(Ray, Particle, Interval, float radius)   thinner than that and passed nearer than that; after a miss, too
+//   Outline outline(Ray, Particle, Interval)         where the ray's pixel lies to the outline; for analytic edges
 //   vec3 outward_normal(Ray, Particle, Interval, bool exit)   at one end of the interval; unit
 //
 // and for the tiles of the compute expansion (TILES), where one particle is tested against many pixels:
@@ -45,6 +47,14 @@ Proxy empty_proxy() { return Proxy(vec2(1e30), vec2(-1e30), 1.0); }
 struct Interval {
   float t_in, t_out;
   vec4 local;
+};
+
+// A pixel's place to a particle's outline on the image; everything in pixels.
+struct Outline {
+  float inside; // from the pixel's center to the outline, positive within
+  vec2 inward;  // unit, at right angles to the outline
+  float radius; // of curvature
+  vec2 offset;  // from the pixel's center to the particle's
 };
 
 #include "type.glsl"

@@ -113,7 +113,7 @@ const float proxy_growth = 2e-6;
 // Corner i (0..3, strip order) of the proxy in clip space, with w = 1 so that nothing is near-clipped. The depth is
 // that of z_min, moved a little to the eye: the written depth n / z never exceeds it (depth_less, FC-29).
 vec4 proxy_corner(Proxy p, int i) {
-  vec2 margin = proxy_margin / frame.viewport.zz + proxy_growth * (p.hi - p.lo);
+  vec2 margin = (proxy_margin + proxy_slack) / frame.viewport.zz + proxy_growth * (p.hi - p.lo);
   vec2 corner = vec2((i & 1) == 0 ? p.lo.x - margin.x : p.hi.x + margin.x,
                      (i & 2) == 0 ? p.lo.y - margin.y : p.hi.y + margin.y);
   // The rasterizer samples pixel centers, the rays pass at the sample offset: shift by the difference.

@@ -72,7 +72,7 @@ Picture GpuTest::draw(const Scene& scene, const View& view, const passes::FrameO
   rg::CompileOptions roots;
   for (const char* source : {"opaque.color", "opaque.aov_depth", "opaque.aov_id", "opaque.aov_normal"})
     roots.roots.push_back({source, {"test"}});
-  const auto graph = rg::compile_file(MOTE_SOURCE_DIR "/app/graphs/default.toml", registry, roots, settings);
+  const auto graph = rg::compile_file(MOTE_SOURCE_DIR "/app/graphs/" + graph_ + ".toml", registry, roots, settings);
   EXPECT_TRUE(graph.plan) << to_string(graph.diagnostics);
   if (!graph.plan) return {};
 

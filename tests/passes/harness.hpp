@@ -37,10 +37,12 @@ protected:
   void TearDown() override; // the validation layer has said nothing
   [[nodiscard]] static gpu::Device device();
   // `settings`: "pass.param=value" each.
+  // `graph_` names the shipped graph.
   Picture draw(const Scene& scene, const View& view, const passes::FrameOptions& options = {},
                const std::vector<std::string>& settings = {});
   // Draws with both expansions, which must agree bit for bit, against the reference, and with the alarm of FC-29 on.
   Picture check(const Scene& scene, const View& view, const Bars& bars = {});
+  std::string graph_{"default"};
 };
 
 // Spheres (x, y, z, r) as one batch of a scene with one head light of 0.8 and an ambient of 0.2 on white.

@@ -252,7 +252,7 @@ TEST_F(ExecutorTest, ASizeThatTheDeviceDoesNotAllow) {
     FAIL() << "it was allowed";
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.exit(), Exit::Failed);
-    EXPECT_THAT(failure.what(), HasSubstr(fmt::format("big: error G070: the width of 'a.color' is {} for a view of {}x1, but the device allows {}.", side, side, side - 1)));
+    EXPECT_THAT(failure.what(), HasSubstr(fmt::format("g.toml:4:1: error G070: the width of 'a.color' is {} for a view of {}x1, but the device allows {}.", side, side, side - 1)));
   }
   executor->execute({}, {2, 2});
   EXPECT_THAT(read<float>(executor->output()), Each(5.0f)) << "the next size is fine again";
@@ -278,7 +278,7 @@ class SmallMemoryTest : public GpuTest {
 protected:
   SmallMemoryTest() { memory_budget_ = 8 << 20; }
 };
-TEST_F(SmallMemoryTest, NoMemoryNamesTheTextureAndTheGraph) {
+TEST_F(SmallMemoryTest, NoMemoryNamesTheTextureAndItsPlace) {
   auto executor = make(basics(), "name = 'big'\noutput = 'a.color'\n" + pass("a", "fill"));
   executor->execute({}, {16, 16});
   try {
@@ -286,7 +286,7 @@ TEST_F(SmallMemoryTest, NoMemoryNamesTheTextureAndTheGraph) {
     FAIL() << "64 MiB fitted into 8";
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.exit(), Exit::Failed);
-    EXPECT_THAT(failure.what(), testing::AllOf(HasSubstr("big: error G071: 'a.color' cannot be made for a view of 4096x4096"), HasSubstr("the whole graph takes 64 MiB at this size.")));
+    EXPECT_THAT(failure.what(), testing::AllOf(HasSubstr("g.toml:4:1: error G071: 'a.color' cannot be made for a view of 4096x4096"), HasSubstr("the whole graph takes 64 MiB at this size.")));
   }
   executor->execute({}, {16, 16}); // as before: what was given up is made again
   EXPECT_THAT(read<float>(executor->output()), testing::AllOf(testing::SizeIs(256), Each(5.0f)));

@@ -174,3 +174,21 @@ bool tile_nearer(TileTest s, float x, float y, inout float key) {
   return nearer;
 }
 #endif
+// Is the sphere thinner than `radius`, and does the ray pass it nearer than that? A miss has its interval at that place.
+bool passes_thin(Ray ray, Particle p, Interval hit, float radius) { return p.radius < radius && length(hit.local.xyz) < radius; }
+
+// Where the pixel of a ray lies to the sphere's outline on the image, in pixels (method book, section 8.4): to first
+// order F / |grad F| of F = (d.m)^2 - (d.d)(|m|^2 - r^2), from what the hit has, without cancellation.
+Outline outline(Ray ray, Particle p, Interval hit) {
+  vec3 l = hit.local.xyz;
+  float distance = length(l), d2 = (p.radius - distance) * (p.radius + distance), focal = frame.viewport.z;
+  float middle = 0.5 * (hit.t_in + hit.t_out);
+  vec2 outward = orthographic ? l.xy : middle * l.xy - d2 / dot(ray.direction, ray.direction) * ray.direction.xy;
+  float slope = max(length(outward), 1e-30);
+  Outline o;
+  o.inside = orthographic ? focal * (p.radius - distance) : focal * d2 / (2.0 * slope);
+  o.inward = -outward / slope;
+  o.radius = focal * p.radius / (orthographic ? 1.0 : p.center.z);
+  o.offset = orthographic ? focal * (p.center.xy - ray.origin.xy) : focal * (p.center.xy / p.center.z - ray.direction.xy);
+  return o;
+}

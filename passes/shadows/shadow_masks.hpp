@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// How much of each mapped light reaches each pixel's surface: one full-screen pass a shadow map,
+// from the textures of phase `surface` into one layer of an r8unorm array. Any number of lights.
+// Called by SurfaceShading; knows no particle types beyond the functions of shaders/shadow/casters.glsl.
+#pragma once
+
+#include "core/gpu/gpu.hpp"
+#include "core/scene/scene.hpp"
+#include "passes/shadows/shadow_maps.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mote::passes {
+
+struct MappedLight {
+  gpu::Texture map{};
+  ShadowMapInfo info{};
+};
+
+class ShadowMasks {
+public:
+  // `frame_layout`: of set 0, the frame block (ParticlePipelines::frame_layout()).
+  ShadowMasks(gpu::Device device, const gpu::BindGroupLayout& frame_layout);
+
+  // Before recording: sizes the masks and uploads how each light's space follows from the camera's. At least one light.
+  void update(const std::vector<MappedLight>& lights, const View& camera);
+  // Draws all layers. `id` and `normal_t` as phase `surface` writes them.
+  void record(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame, const gpu::TextureView& id, const gpu::TextureView& normal_t, bool orthographic);
+  [[nodiscard]] const gpu::TextureView& masks() const { return all_; } // 2D array, one layer a light
+
+private:
+  struct Layer {
+    gpu::TextureView target{};
+    gpu::Buffer block{};
+    gpu::BindGroup group{};
+    gpu::Texture map{};
+    bool ids{}, orthographic{};
+    std::uint32_t pcf{};
+  };
+  struct Key {
+    bool ids{}, orthographic{}, light_orthographic{};
+    std::uint32_t pcf{};
+    auto operator<=>(const Key&) const = default;
+  };
+  const gpu::RenderPipeline& pipeline(const Key& key);
+
+  gpu::Device device_;
+  gpu::BindGroupLayout surface_layout_, ids_layout_, depth_layout_;
+  gpu::PipelineLayout ids_pipeline_layout_, depth_pipeline_layout_;
+  std::map<Key, gpu::RenderPipeline> pipelines_;
+  gpu::Texture texture_;
+  gpu::TextureView all_;
+  std::vector<Layer> layers_;
+  gpu::TextureView id_, normal_t_;
+  gpu::BindGroup surface_;
+};
+
+} // namespace mote::passes

@@ -1,0 +1,34 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Phase `shadow`: the nearest surface seen from a light. SHADOW_IDS: who it belongs to, in the texel format of
+// passes/shadows/shadow_maps.hpp; without it only the depth.
+#extension GL_GOOGLE_include_directive : require
+#include "particles/particle.glsl"
+
+layout(location = 1) flat in uint v_id;
+layout(location = 2) flat in vec4 v_payload[payload_vec4s];
+
+#ifdef SHADOW_IDS
+layout(location = 0) out uvec4 o_caster;
+layout(location = 1) out uvec4 o_id;
+#endif
+layout(depth_less) out float gl_FragDepth;
+
+void main() {
+  Particle particle = unpack(v_payload);
+  Interval hit;
+  Ray ray = pixel_ray(gl_FragCoord.xy);
+  bool covered = intersect(ray, particle, hit);
+#ifdef SHADOW_IDS
+  // Thinner than a texel: it owns the texels beside it, too, and is not lost between their centers. Receivers test it exactly.
+  covered = covered || passes_thin(ray, particle, hit, proxy_slack / frame.viewport.z * (orthographic ? 1.0 : hit.t_in));
+#endif
+  if (!covered) discard;
+  float t = hit.t_in > 0.0 ? hit.t_in : hit.t_out; // a light inside a particle shines on its inner wall
+  if (!(t > 0.0 && t <= frame.sample_near_far.w)) discard;
+  gl_FragDepth = encode_depth(t);
+#ifdef SHADOW_IDS
+  o_caster = floatBitsToUint(v_payload[0]);
+  o_id = uvec4(v_id, 0u, 0u, 0u);
+#endif
+}

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+// `shadow_map` and the passes that take its map, against answers known in closed form and against the
+// reference's shadow rays. "Wrong" is a pixel that faces the light and shows light where the ray is
+// blocked, or the reverse (method book, section 8.2; failure cases FC-42, FC-44).
+#include "harness.hpp"
+
+#include "core/base/diagnostic.hpp"
+#include "core/reference/reference.hpp"
+#include "core/scene/generated.hpp"
+
+#include <fmt/format.h>
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+namespace mote::test {
+namespace {
+
+using testing::HasSubstr;
+
+struct ShadowErrors {
+  std::size_t facing{}, shadowed{}, false_shadow{}, false_light{};
+  [[nodiscard]] double wrong() const { return static_cast<double>(false_shadow + false_light) / static_cast<double>(std::max<std::size_t>(facing, 1)); }
+};
+
+class Shadows : public GpuTest {
+protected:
+  Shadows() { graph_ = "shadowed"; }
+
+  static Light sun(glm::dvec3 direction) {
+    return {.name = "sun", .kind = LightKind::Directional, .direction = glm::normalize(direction), .intensity = 0.8, .shadows = true};
+  }
+  static Scene cloud(std::size_t n, double radius, const Light& light) {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> u(-10, 10);
+    std::vector<glm::dvec4> spheres;
+    for (std::size_t i = 0; i < n; ++i) spheres.push_back({u(random), u(random), u(random), radius});
+    Scene scene = scene_of(spheres);
+    scene.lights = {light};
+    return scene;
+  }
+
+  // Which light of the scene each pixel shows, by the reference's picture with and without shadows.
+  static ShadowErrors errors(const Picture& picture, const Scene& scene, const View& view) {
+    ReferenceOptions options;
+    const ReferencePicture with = render_reference(scene, view, options);
+    options.shadows = false;
+    const ReferencePicture without = render_reference(scene, view, options);
+    Scene dark = scene;
+    for (Light& light : dark.lights)
+      if (light.shadows) light.intensity = 0.0;
+    const ReferencePicture ambient = render_reference(dark, view, options);
+    ShadowErrors out;
+    for (std::size_t i = 0; i < with.id.size(); ++i) {
+      if (with.id[i] == reference_no_id || with.ambiguous[i]) continue;
+      const double lit = without.color[i].g, unlit = ambient.color[i].g;
+      if (lit - unlit < 4e-3) continue; // turned away, or beyond the cone
+      ++out.facing;
+      const bool truth = with.color[i].g < 0.5 * (lit + unlit), drawn = picture.color[i].g < 0.5 * (lit + unlit);
+      out.shadowed += truth;
+      out.false_shadow += drawn && !truth;
+      out.false_light += truth && !drawn;
+    }
+    return out;
+  }
+};
+
+// A small sphere throws its disc onto a large one: the point under it is dark, one beside it is not.
+TEST_F(Shadows, KnownAnswer) {
+  for (const char* method : {"ids", "depth"}) {
+    Scene scene = scene_of({{0, 0, 0, 2}, {0, 5, 0, 0.5}});
+    scene.lights = {sun({0, -1, 0})};
+    const View view = look(scene, {0, 12, 12}, {0, 2, 0}, {200, 200});
+    const Picture p = draw(scene, view, {}, {std::string("shadow.method=\"") + method + "\""});
+    const auto at = [&](glm::dvec3 world) {
+      const glm::dvec3 v = view.to_view(world);
+      return p.color[p.at(static_cast<std::uint32_t>(v.x / v.z * view.focal + 100), static_cast<std::uint32_t>(v.y / v.z * view.focal + 100))].g;
+    };
+    EXPECT_NEAR(at({0, 2, 0}), 0.8 * 0.2, 1e-3) << method << ": ambient light only";
+    const double y = std::sqrt(4 - 0.8 * 0.8);
+    EXPECT_NEAR(at({0.8, y, 0}), 0.8 * (0.2 + 0.8 * y / 2), 6e-3) << method << ": beside the shadow";
+    const ShadowErrors e = errors(p, scene, view);
+    EXPECT_GT(e.shadowed, 100u);
+    EXPECT_LE(e.wrong(), 1e-3) << method;
+  }
+}
+
+// Depth, id, normal and unshadowed color are what the passes without shadows draw.
+TEST_F(Shadows, AovsAndShadingAreThoseOfTheReference) {
+  Scene scene = cloud(200, 1.4, sun({1, -0.4, -0.3}));
+  scene.batches[0].material = {ShadingModel::BlinnPhong, 0.9, 0.8, 0.5, 30.0};
+  scene.lights.push_back({.name = "lamp", .kind = LightKind::Point, .position = {20, 20, 20}, .intensity = 0.3});
+  for (const bool orthographic : {false, true}) {
+    const View view = orthographic ? look_orthographic(scene, {5, 8, 60}, {0, 0, 0}, {192, 108}, 24) : look(scene, {5, 8, 60}, {0, 0, 0}, {192, 108});
+    Scene open = scene;
+    for (Light& light : open.lights) light.shadows = false;
+    expect_equals_reference(draw(open, view), open, view, {.least_hits = 0.2}); // the map's pass is idle
+    const Picture p = draw(scene, view);
+    const ShadowErrors e = errors(p, scene, view);
+    EXPECT_GT(e.shadowed, 300u);
+    EXPECT_EQ(e.false_shadow + e.false_light, 0u);
+    expect_equals_reference(p, scene, view, {.least_hits = 0.2});
+  }
+}
+
+// At most one wrong pixel in a thousand, in windows of any shape; false shadow never.
+TEST_F(Shadows, FewPixelsAreWrongInWindowsOfAnyShape) {
+  const Scene scene = cloud(10000, 0.4, sun({1, -0.35, 0.2}));
+  for (const Size2d size : {Size2d{480, 270}, Size2d{270, 480}, Size2d{300, 300}}) {
+    const View view = look(scene, {18, 12, 45}, {0, 0, 0}, size);
+    const ShadowErrors e = errors(draw(scene, view, {}, {"shadow.size=768"}), scene, view);
+    EXPECT_GT(e.facing, 5000u);
+    EXPECT_GT(static_cast<double>(e.shadowed), 0.2 * static_cast<double>(e.facing));
+    EXPECT_LE(e.wrong(), 1e-3) << e.false_shadow << " false shadow, " << e.false_light << " false light of " << e.facing;
+    EXPECT_LE(e.false_shadow, 2u);
+  }
+}
+
+// The scene that speed and accuracy are stated for, at the map's default size. MOTE_ACCURACY=full (tests/accuracy.sh)
+// draws it in full-size windows, too.
+TEST_F(Shadows, TheBenchmarkSceneAtTheDefaultSize) {
+  const GeneratedSpheres made = generate_spheres(100000, 1);
+  std::vector<glm::dvec4> spheres;
+  for (std::size_t i = 0; i < made.radii.size(); ++i) spheres.push_back({made.positions[3 * i], made.positions[3 * i + 1], made.positions[3 * i + 2], made.radii[i]});
+  Scene scene = scene_of(spheres);
+  scene.lights = {sun({1, 0.4, -0.3})};
+  const bool full = std::getenv("MOTE_ACCURACY") != nullptr;
+  for (const Size2d size : {Size2d{640, 360}, Size2d{1920, 1080}, Size2d{1080, 1920}}) {
+    if (size.width > 640 && !full) continue;
+    const View view = make_view(generated_camera({.count = 100000}), size, scene.bounds.diagonal());
+    const ShadowErrors e = errors(draw(scene, view), scene, view);
+    if (full) fmt::print("{}x{}: {} wrong of {} facing ({} false shadow, {} false light)\n", size.width, size.height, e.false_shadow + e.false_light, e.facing, e.false_shadow, e.false_light);
+    EXPECT_LE(e.wrong(), 1e-3) << e.false_shadow << " false shadow, " << e.false_light << " false light of " << e.facing;
+    EXPECT_GT(e.shadowed, e.facing / 4);
+  }
+}
+
+TEST_F(Shadows, DepthMapsErrLittleAndHaveNoAcne) {
+  const Scene scene = cloud(1000, 0.9, sun({1, -0.35, 0.2}));
+  const View view = look(scene, {18, 12, 45}, {0, 0, 0}, {320, 240});
+  const ShadowErrors soft = errors(draw(scene, view, {}, {"shadow.method=\"depth\"", "shadow.size=2048"}), scene, view);
+  EXPECT_LE(soft.wrong(), 0.02);
+  const ShadowErrors hard = errors(draw(scene, view, {}, {"shadow.method=\"depth\"", "shadow.size=2048", "shadow.pcf=0"}), scene, view);
+  EXPECT_LE(hard.wrong(), 0.008);
+  const ShadowErrors coarse = errors(draw(scene, view, {}, {"shadow.method=\"depth\"", "shadow.size=128", "shadow.pcf=0"}), scene, view);
+  EXPECT_GT(coarse.wrong(), hard.wrong()) << "the measure sees what a coarse map does";
+}
+
+// One sphere alone never shades itself, up to the limb of light; the same picture without the offset does.
+TEST_F(Shadows, NoAcneAtLimbs) {
+  Scene scene = scene_of({{0, 0, 0, 3}});
+  scene.lights = {sun({1, -0.2, -0.1})};
+  const View view = look(scene, {0, 2, 14}, {0, 0, 0}, {300, 300});
+  for (const std::string& size : {std::string("32"), std::string("1024")}) {
+    const ShadowErrors ids = errors(draw(scene, view, {}, {"shadow.size=" + size}), scene, view);
+    EXPECT_EQ(ids.false_shadow, 0u);
+    EXPECT_GT(ids.facing, 10000u);
+    EXPECT_EQ(errors(draw(scene, view, {}, {"shadow.method=\"depth\"", "shadow.size=" + size}), scene, view).false_shadow, 0u);
+    EXPECT_GT(errors(draw(scene, view, {}, {"shadow.method=\"depth\"", "shadow.normal_offset=0.0", "shadow.size=" + size}), scene, view).false_shadow, 100u);
+  }
+}
+
+// Two touching spheres, the light along the line of their centers: the shadow begins at the contact. Its gap is
+// measured in a view that has 500 pixels a radius.
+TEST_F(Shadows, ContactGap) {
+  Scene scene = scene_of({{0, 0, 0, 1}, {0, 2, 0, 1}});
+  scene.lights = {sun({-0.6, -1, 0})};
+  const View view = look_orthographic(scene, {0, 1, 40}, {0, 1, 0}, {400, 400}, 0.8);
+  const Picture p = draw(scene, view);
+  const ReferencePicture truth = render_reference(scene, view);
+  double gap = 0.0;
+  std::size_t shadowed = 0;
+  for (std::size_t i = 0; i < truth.id.size(); ++i) {
+    if (truth.id[i] == reference_no_id || truth.ambiguous[i]) continue;
+    shadowed += truth.color[i].g < 0.17;
+    if (std::abs(p.color[i].g - truth.color[i].g) < 0.02) continue;
+    const double x = (static_cast<double>(i % 400) - 199.5) / 500, y = (static_cast<double>(i / 400) - 199.5) / 500;
+    gap = std::max(gap, std::hypot(x, y));
+  }
+  EXPECT_GT(shadowed, 2000u);
+  EXPECT_LT(gap, 0.02);
+}
+
+TEST_F(Shadows, SpotLights) {
+  Light spot{.name = "spot", .kind = LightKind::Spot, .direction = glm::normalize(glm::dvec3(-1, -1, -0.2)), .position = {22, 22, 5},
+             .intensity = 0.8, .inner_angle = 0.3, .outer_angle = 0.4, .shadows = true};
+  const Scene scene = cloud(1500, 0.8, spot);
+  const View view = look(scene, {18, 12, 45}, {0, 0, 0}, {320, 240});
+  const ShadowErrors e = errors(draw(scene, view), scene, view);
+  EXPECT_GT(e.shadowed, 500u);
+  EXPECT_LE(e.wrong(), 1e-3) << e.false_shadow << " false shadow, " << e.false_light << " false light of " << e.facing;
+}
+
+// FC-44: a light inside a sphere lights its inner wall only.
+TEST_F(Shadows, LightInsideASphere) {
+  Scene scene = scene_of({{0, 0, 0, 2}, {0, -6, 0, 2}, {3, -6, 0, 0.4}});
+  scene.lights = {{.name = "spot", .kind = LightKind::Spot, .direction = {0, -1, 0}, .position = {0, 0.5, 0}, .intensity = 0.8,
+                   .inner_angle = 0.6, .outer_angle = 0.7, .shadows = true}};
+  const View view = look(scene, {0, 2, 20}, {0, -3, 0}, {200, 200});
+  const ShadowErrors e = errors(draw(scene, view), scene, view);
+  EXPECT_GT(e.shadowed, 500u);
+  EXPECT_EQ(e.false_shadow + e.false_light, 0u);
+}
+
+// A head light stands behind the eye but looks along the view axis: off the axis its shadows are seen.
+TEST_F(Shadows, HeadLight) {
+  Scene scene = cloud(1500, 0.8, {.name = "head", .kind = LightKind::Headlight, .intensity = 0.8, .shadows = true});
+  const View view = look(scene, {0, 0, 30}, {0, 0, 0}, {320, 240}, 50.0);
+  const ShadowErrors e = errors(draw(scene, view), scene, view);
+  EXPECT_GT(e.shadowed, 100u);
+  EXPECT_LE(e.wrong(), 1e-3);
+}
+
+// FC-43, FC-46: casters thinner than a texel.
+TEST_F(Shadows, CastersBelowATexel) {
+  std::vector<glm::dvec4> spheres{{0, 0, 0, 8}};
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> u(-6, 6);
+  for (int i = 0; i < 300; ++i) spheres.push_back({u(random), 10 + 0.1 * u(random), u(random), 0.05});
+  Scene scene = scene_of(spheres);
+  scene.lights = {sun({0.05, -1, 0.02})};
+  const View view = look(scene, {0, 25, 25}, {0, 3, 0}, {600, 400}, 35.0);
+  const ShadowErrors e = errors(draw(scene, view, {}, {"shadow.size=128"}), scene, view); // texel 0.15, casters 0.1 across
+  EXPECT_GT(e.shadowed, 300u);
+  EXPECT_LE(static_cast<double>(e.false_light), 0.05 * static_cast<double>(e.shadowed)) << "of " << e.shadowed;
+  EXPECT_EQ(e.false_shadow, 0u);
+}
+
+TEST_F(Shadows, TransparentParticlesCastNoneUnlessAsked) {
+  Scene scene = scene_of({{0, 0, 0, 2}});
+  Batch veil = scene_of({{0, 5, 0, 0.5}}).batches[0];
+  veil.alpha = 0.5;
+  veil.id_base = 1;
+  scene.batches.push_back(veil);
+  scene.bounds.add({0, 5, 0}, 0.5);
+  scene.lights = {sun({0, -1, 0})};
+  const View view = look_orthographic(scene, {0, 2.4, 20}, {0, 2.4, 0}, {100, 100}, 8);
+  const std::uint32_t x = 50, y = 55; // just below the top of the large sphere
+  const double lit = draw(scene, view).color[y * 100 + x].g, dark = draw(scene, view, {}, {"shadow.transparent=true"}).color[y * 100 + x].g;
+  EXPECT_GT(lit, 0.5);
+  EXPECT_NEAR(dark, 0.16, 2e-3);
+}
+
+// ---- what can go wrong ------------------------------------------------------------------------------
+class ShadowMistakes : public Shadows {
+protected:
+  std::string message(const Scene& scene, const std::vector<std::string>& settings) {
+    try {
+      draw(scene, look(scene, {0, 0, 20}, {0, 0, 0}, {64, 64}), {}, settings);
+    } catch (const Failure& failure) {
+      return failure.what();
+    }
+    return "it was drawn";
+  }
+};
+
+TEST_F(ShadowMistakes, ALightThatIsNotThere) {
+  Scene scene = cloud(10, 0.5, sun({1, 0, 0}));
+  EXPECT_EQ(message(scene, {"shadow.light=\"sun\""}), "it was drawn");
+  EXPECT_THAT(message(scene, {"shadow.light=\"sum\""}), testing::AllOf(HasSubstr("error P015: the scene has no light named 'sum'"),
+                                                                       HasSubstr("Lights: sun."), HasSubstr("Did you mean 'sun'?")));
+}
+
+TEST_F(ShadowMistakes, LightsThatOneMapCannotHold) {
+  Scene scene = cloud(10, 0.5, sun({1, 0, 0}));
+  scene.lights[0].kind = LightKind::Point;
+  EXPECT_THAT(message(scene, {}), testing::AllOf(HasSubstr("error P017"), HasSubstr("'sun' is a point light")));
+  scene.lights[0].kind = LightKind::Spot;
+  scene.lights[0].outer_angle = 1.5;
+  EXPECT_THAT(message(scene, {}), testing::AllOf(HasSubstr("error P017"), HasSubstr("85.94 degrees")));
+}
+
+TEST_F(ShadowMistakes, AMapThatTheDeviceOrMemoryCannotHold) {
+  const Scene scene = cloud(10, 0.5, sun({1, 0, 0}));
+  EXPECT_THAT(message(scene, {"shadow.size=65536"}), testing::AllOf(HasSubstr("shadowed.toml:7:1: error G070: the width of 'shadow.map'"), HasSubstr("65536")));
+  EXPECT_THAT(message(scene, {"shadow.size=16384"}), HasSubstr("shadowed.toml:7:1: error G071: 'shadow.map' cannot be made"));
+}
+
+} // namespace
+} // namespace mote::test
