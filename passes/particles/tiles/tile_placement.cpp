@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "passes/particles/tiles/tile_placement.hpp"
 
-#include "core/scene/parallel.hpp"
+#include "core/base/parallel.hpp"
 
 #include <cmath>
 
