@@ -5,7 +5,7 @@
 
 namespace mote::passes {
 namespace {
-constexpr std::array<std::string_view, 4> names{"auto", "vertex", "geometry", "compute"};
+constexpr std::array<std::string_view, 5> names{"auto", "vertex", "geometry", "compute", "point"};
 }
 
 std::string_view to_string(Expansion expansion) { return names[static_cast<std::size_t>(expansion)]; }

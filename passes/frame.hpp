@@ -19,9 +19,9 @@
 namespace mote::passes {
 
 // How a particle becomes fragments. Auto takes the cheapest that the device and the pass support.
-enum class Expansion : std::uint8_t { Auto, Vertex, Geometry, Compute };
+enum class Expansion : std::uint8_t { Auto, Vertex, Geometry, Compute, Point };
 std::string_view to_string(Expansion expansion);
-std::span<const std::string_view> expansion_names(); // "auto", "vertex", "geometry", "compute"
+std::span<const std::string_view> expansion_names(); // "auto", "vertex", "geometry", "compute", "point"
 // False when `name` is none of them.
 bool parse_expansion(std::string_view name, Expansion& out);
 

@@ -2,6 +2,7 @@
 #include "passes/opaque_impostors.hpp"
 
 #include "core/base/diagnostic.hpp"
+#include "core/gpu/points.hpp"
 #include "passes/particles/frame_uniform.hpp"
 #include "passes/particles/particle_store.hpp"
 #include "passes/particles/pipelines.hpp"
@@ -89,9 +90,11 @@ public:
     const FrameBlock block = frame_block(scene, view);
     device.queue().write_buffer(frame_buffer_, 0, std::as_bytes(std::span(&block, 1)));
     const Expansion expansion = choose_expansion(context.frame().get<FrameOptions>().expansion, device, scene);
+    if (expansion == Expansion::Compute || expansion == Expansion::Point) check_states(expansion);
     if (expansion == Expansion::Compute) check_tiles(scene);
+    const double largest_point = expansion == Expansion::Point ? double{gpu::max_point_size(device)} : 0.0;
     const bool tiled = expansion == Expansion::Compute && record_tiles(context, store);
-    if (!tiled) placed_ = store.place(scene, view);
+    if (!tiled) placed_ = store.place(scene, view, 0, largest_point);
     if (tiled && tiled_.rest.draws.empty()) return;
     raster_ = expansion == Expansion::Geometry ? expansion : Expansion::Vertex;
     reserve_indices(device, tiled ? tiled_.rest : placed_);
@@ -175,7 +178,7 @@ private:
       if (!selection_.draws(*draw.batch)) continue;
       BatchBlock block = draw.block;
       ParticlePipelineKey key = key_for(scene, view, *draw.batch);
-      key.expansion = raster_;
+      key.expansion = draw.sprites ? Expansion::Point : raster_;
       key.near_eye = draw.near_eye;
       key.affine = draw.affine;
       key.targets = into.formats;
@@ -195,7 +198,7 @@ private:
       pass.set_bind_group(0, into.frame);
       pass.set_bind_group(1, draw.group);
       pass.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
-      if (raster_ == Expansion::Vertex)
+      if (key.expansion == Expansion::Vertex)
         indices_.draw(pass, draw.particles);
       else
         pass.draw(draw.particles);
@@ -287,6 +290,8 @@ private:
     const Expansion expansion = wanted == Expansion::Auto ? Expansion::Vertex : wanted;
     if (expansion == Expansion::Geometry && !gpu::has(device.features(), gpu::Feature::GeometryShader))
       fail(Exit::Failed, "P001", {}, "the device has no geometry stage, so expansion 'geometry' cannot be used", {"expansions that work here: vertex"});
+    if (expansion == Expansion::Point && gpu::max_point_size(device) < 8.0f)
+      fail(Exit::Failed, "P001", {}, "the device has no large points, so expansion 'point' cannot be used", hints());
     for (const Batch& batch : scene.batches) {
       const ParticleType* type = find_particle_type(batch.type);
       if (selection_.draws(batch) && (!type || !supports(*type, expansion, Phase::Opaque)))
@@ -298,15 +303,19 @@ private:
     return expansion;
   }
 
-  // What tiles cannot do, and is not done otherwise unasked: P001.
+  // What tiles and sprites cannot do (their particles are drawn in no order), and is not done otherwise unasked: P001.
+  void check_states(Expansion expansion) const {
+    const DrawStates tested{.cull = expansion == Expansion::Compute ? Cull::None : states_.cull};
+    if (states_ != tested)
+      fail(Exit::Failed, "P001", {}, fmt::format("expansion '{}' draws with the default depth_test, depth_write, blend and cull only", to_string(expansion)), hints());
+  }
+  static std::vector<std::string> hints() { return {"--expansion vertex or geometry can"}; }
   void check_tiles(const Scene& scene) const {
-    const std::vector<std::string> hints{"--expansion vertex or geometry can"};
     if (deferred_ || analytic_edges_ || offsets_.size() > 1)
-      fail(Exit::Failed, "P001", {}, fmt::format("expansion 'compute' cannot draw with {}", deferred_ ? "shadow maps" : analytic_edges_ ? "analytic edges" : "several samples a pixel"), hints);
-    if (states_ != DrawStates{}) fail(Exit::Failed, "P001", {}, "expansion 'compute' draws with the default depth_test, depth_write, blend and cull only", hints);
+      fail(Exit::Failed, "P001", {}, fmt::format("expansion 'compute' cannot draw with {}", deferred_ ? "shadow maps" : analytic_edges_ ? "analytic edges" : "several samples a pixel"), hints());
     for (const Batch& batch : scene.batches)
       if (selection_.opacity == Opacity::Opaque && selection_.draws(batch) && has_own_alpha(batch))
-        fail(Exit::Failed, "P001", {}, fmt::format("expansion 'compute' cannot tell the opaque particles of '{}' from its transparent ones", batch.name), hints);
+        fail(Exit::Failed, "P001", {}, fmt::format("expansion 'compute' cannot tell the opaque particles of '{}' from its transparent ones", batch.name), hints());
   }
 
   void make_frame_group(gpu::Device& device, const ParticleStore& store) {

@@ -20,7 +20,7 @@ void add_scene_arguments(CLI::App& command, SceneArguments& a) {
       ->type_name("PATH=VALUE");
   command.add_option("--graph", a.graph, "shipped graph or graph file")->type_name("GRAPH");
   command.add_option("--size", a.size, "size of the picture in pixels, 1280x720 if not given")->type_name("WxH");
-  command.add_option("--expansion", a.expansion, "how particles become fragments: auto, vertex, geometry")->type_name("NAME");
+  command.add_option("--expansion", a.expansion, "how particles become fragments: auto, vertex, geometry, compute, point")->type_name("NAME");
 }
 
 void add_device_arguments(CLI::App& command, DeviceArguments& a) {

@@ -46,6 +46,7 @@ struct EnabledFeatures {
     on.drawIndirectFirstInstance = can.drawIndirectFirstInstance;
     on.vertexPipelineStoresAndAtomics = can.vertexPipelineStoresAndAtomics;
     on.fragmentStoresAndAtomics = can.fragmentStoresAndAtomics;
+    on.largePoints = can.largePoints;
     on.shaderStorageImageExtendedFormats = can.shaderStorageImageExtendedFormats;
     on.shaderStorageImageWriteWithoutFormat = can.shaderStorageImageWriteWithoutFormat;
     on.sampleRateShading = can.sampleRateShading;

@@ -3,6 +3,7 @@
 
 #include "core/math/principal_axes.hpp"
 #include "passes/particles/placement.hpp"
+#include "passes/particles/sprites.hpp"
 #include "passes/particles/tiles/tile_placement.hpp"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ struct Run {
   const Slice* slice{};
   std::uint32_t first{}, count{};  // among the placements
   std::uint32_t first_near{};      // among the near payloads
-  bool near_eye{};
+  bool near_eye{}, sprites{};
 };
 
 } // namespace
@@ -61,7 +62,7 @@ struct ParticleStore::Impl {
   gpu::BindGroup group_for(Placements& placed, const Slice& slice);
   void write(gpu::Buffer& buffer, std::string_view label, std::span<const std::byte> contents, Placements& placed);
   PlacedView finish(const std::vector<Run>& runs, const View& view, Placements& placed);
-  std::vector<Run> place_all(const Scene& scene, const View& view, Placements& placed, std::uint64_t& total) const;
+  std::vector<Run> place_all(const Scene& scene, const View& view, Placements& placed, std::uint64_t& total, double largest_point) const;
 };
 
 ParticleStore::ParticleStore(gpu::Device device) : impl_(std::make_unique<Impl>()) {
@@ -142,27 +143,29 @@ void ParticleStore::Impl::write(gpu::Buffer& buffer, std::string_view label, std
 }
 
 void ParticleStore::Impl::Placements::append(std::vector<Run>& runs, const Batch& batch, std::size_t instance, const Slice& slice, const PlacedChunks& placed) {
-  auto add = [&](const std::vector<PlacedChunk>& visible, bool near_eye) {
+  auto add = [&](const std::vector<PlacedChunk>& visible, bool near_eye, bool sprites = false) {
     if (visible.empty()) return;
     runs.push_back({&batch, instance, &slice, static_cast<std::uint32_t>(chunks.size()), static_cast<std::uint32_t>(visible.size()),
-                    static_cast<std::uint32_t>(payloads.size()), near_eye});
+                    static_cast<std::uint32_t>(payloads.size()), near_eye, sprites});
     chunks.insert(chunks.end(), visible.begin(), visible.end());
   };
   add(placed.far, false);
+  add(placed.sprites, false, true);
   add(placed.near, true);
   payloads.insert(payloads.end(), placed.payloads.begin(), placed.payloads.end());
 }
 
 // Places every slice of every instance, in scene order; near chunks are a run of their own.
-std::vector<Run> ParticleStore::Impl::place_all(const Scene& scene, const View& view, Placements& placed, std::uint64_t& total) const {
+std::vector<Run> ParticleStore::Impl::place_all(const Scene& scene, const View& view, Placements& placed, std::uint64_t& total, double largest_point) const {
   std::vector<Run> runs;
   const ViewCuller culler(view);
+  const SpriteRule sprites(view, largest_point);
   PlacedChunks chunks;
   for (const Batch& batch : scene.batches)
     for (std::size_t k = 0; k < batch.instances.size(); ++k)
       for (const Slice& slice : residents.at(batch.chunks.get()).slices) {
-        chunks.far.clear(), chunks.near.clear(), chunks.payloads.clear();
-        place_chunks(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler, chunks);
+        chunks.far.clear(), chunks.near.clear(), chunks.sprites.clear(), chunks.payloads.clear();
+        place_chunks(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler, chunks, largest_point > 0 ? &sprites : nullptr);
         total += slice.chunk_count;
         placed.append(runs, batch, k, slice, chunks);
       }
@@ -214,17 +217,18 @@ PlacedView ParticleStore::Impl::finish(const std::vector<Run>& runs, const View&
                             .group = group_for(placed, *run.slice),
                             .block = block_of(run, view),
                             .particles = run.count * chunk_capacity,
+                            .sprites = run.sprites,
                             .near_eye = run.near_eye,
                             .affine = !similarity_scale(run.batch->instances[run.instance].world_from_data)});
   return result;
 }
 
-PlacedView ParticleStore::place(const Scene& scene, const View& view, std::uint32_t slot) const {
+PlacedView ParticleStore::place(const Scene& scene, const View& view, std::uint32_t slot, double largest_point) const {
   Impl::Placements& placed = impl_->placements[slot];
   placed.chunks.clear();
   placed.payloads.clear();
   std::uint64_t total = 0;
-  const std::vector<Run> runs = impl_->place_all(scene, view, placed, total);
+  const std::vector<Run> runs = impl_->place_all(scene, view, placed, total, largest_point);
   PlacedView result = impl_->finish(runs, view, placed);
   result.chunks_total = total;
   return result;

@@ -39,6 +39,7 @@ struct ParticleDraw {
   gpu::BindGroup group{};     // set 1
   BatchBlock block{};
   std::uint32_t particles{};  // places to expand: 64 a placed chunk
+  bool sprites{};             // may be drawn as points
   bool near_eye{};            // placed in double on the CPU: shaders with NEAR_EYE
   bool affine{};              // placed by no similarity, so that spheres are ellipsoids: shaders with AFFINE
 };
@@ -74,7 +75,8 @@ public:
   void upload(const Scene& scene);
   // Needs upload() of the same scene. `slot` names a buffer of placements that is reused every frame:
   // one for each view that is alive at the same time (camera, lights). Const: placements are a cache.
-  PlacedView place(const Scene& scene, const View& view, std::uint32_t slot = 0) const;
+  // With a `largest_point` (the device's limit, in pixels) chunks that may be drawn as points are draws of their own.
+  PlacedView place(const Scene& scene, const View& view, std::uint32_t slot = 0, double largest_point = 0) const;
   // The same for the compute expansion; `out` keeps its memory between frames.
   void place_tiles(const Scene& scene, const View& view, TiledView& out, std::uint32_t slot = 0) const;
 

@@ -11,10 +11,10 @@ namespace {
 
 // One line a type.
 const std::array<ParticleType, 1> types{{
-    {"sphere", "exact sphere: center, radius", 1, {Expansion::Vertex, Expansion::Geometry, Expansion::Compute}, {Phase::Opaque, Phase::Surface, Phase::Transparent, Phase::Shadow}},
+    {"sphere", "exact sphere: center, radius", 1, {Expansion::Vertex, Expansion::Geometry, Expansion::Compute, Expansion::Point}, {Phase::Opaque, Phase::Surface, Phase::Transparent, Phase::Shadow}},
 }};
 
-constexpr std::array expansions{Expansion::Vertex, Expansion::Geometry, Expansion::Compute};
+constexpr std::array expansions{Expansion::Vertex, Expansion::Geometry, Expansion::Compute, Expansion::Point};
 constexpr std::array phases{Phase::Opaque, Phase::Surface, Phase::Transparent, Phase::Shadow};
 
 } // namespace
@@ -43,7 +43,9 @@ std::vector<std::string> particle_type_names() {
 }
 
 bool supports(const ParticleType& type, Expansion expansion, Phase phase) {
-  if (expansion == Expansion::Compute && phase == Phase::Transparent) return false; // a tile keeps the nearest surface only
+  // A tile keeps the nearest surface only; sprites are drawn apart from what does not fit them, so in no one order.
+  if (expansion == Expansion::Compute && phase != Phase::Opaque) return false;
+  if (expansion == Expansion::Point && phase != Phase::Opaque && phase != Phase::Surface) return false;
   return std::count(type.expansions.begin(), type.expansions.end(), expansion) > 0 &&
          std::count(type.phases.begin(), type.phases.end(), phase) > 0;
 }

@@ -97,8 +97,9 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   if (pipelines_.size() >= most_pipelines) pipelines_.clear();
 
   const bool geometry = key.expansion == Expansion::Geometry;
+  const bool point = key.expansion == Expansion::Point;
   const std::string folder = key.type + (key.affine ? "/affine" : "") + (key.near_eye ? "/near" : "");
-  const gpu::ShaderModule vertex = module(folder + (geometry ? "/geometry.vert" : "/vertex.vert"));
+  const gpu::ShaderModule vertex = module(folder + (geometry ? "/geometry.vert" : point ? "/point.vert" : "/vertex.vert"));
   const gpu::ShaderModule fragment = module(folder + "/" + fragment_of(key));
   const gpu::ShaderModule geometry_module = geometry ? module(folder + "/geometry.geom") : gpu::ShaderModule();
   const std::vector<gpu::SpecializationConstant> constants = particle_constants(key);
@@ -113,7 +114,7 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   descriptor.vertex = {.module = &vertex, .constants = constants};
   if (geometry) descriptor.geometry = gpu::ProgrammableStage{.module = &geometry_module, .constants = constants};
   descriptor.fragment = gpu::ProgrammableStage{.module = &fragment, .constants = constants};
-  descriptor.topology = geometry ? gpu::Topology::PointList : gpu::Topology::TriangleList;
+  descriptor.topology = geometry || point ? gpu::Topology::PointList : gpu::Topology::TriangleList;
   descriptor.depth = gpu::DepthState{.format = key.depth, .write = key.states.depth_write, .compare = encoded(key.states.depth_test)};
   descriptor.targets = targets;
   return pipelines_.emplace(key, device_.create_render_pipeline(descriptor)).first->second;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "passes/particles/placement.hpp"
 
+#include "passes/particles/sprites.hpp"
+
 #include <algorithm>
 #include <bit>
 
@@ -118,11 +120,16 @@ void ChunkPlacer::add(const ChunkSet& set, std::uint64_t chunk, std::uint64_t in
 }
 
 void place_chunks(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance,
-                  const View& view, const ViewCuller& culler, PlacedChunks& out) {
+                  const View& view, const ViewCuller& culler, PlacedChunks& out, const SpriteRule* sprites) {
   const ChunkPlacer placer(instance, view, culler);
   PlacedBox box;
-  for (std::uint64_t i = 0; i < count; ++i)
-    if (placer.place(set.chunks[first + i], box)) placer.add(set, first + i, i, box, out);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (!placer.place(set.chunks[first + i], box)) continue;
+    placer.add(set, first + i, i, box, out);
+    if (!sprites || box.near || !placer.similar() || !sprites->fits(box, placer.scale() * double{set.chunks[first + i].max_radius})) continue;
+    out.sprites.push_back(out.far.back());
+    out.far.pop_back();
+  }
 }
 
 } // namespace mote::passes

@@ -46,6 +46,7 @@ struct NearPayload {
 // Few chunks can be near, whatever the scene.
 struct PlacedChunks {
   std::vector<PlacedChunk> far{}, near{};
+  std::vector<PlacedChunk> sprites{};  // far ones that the `point` expansion may draw, where it was asked for
   std::vector<NearPayload> payloads{}; // 64 for each near chunk, in order
 };
 
@@ -80,8 +81,10 @@ private:
   PrincipalAxes axes_{};         // of anything but a similarity
 };
 
+class SpriteRule; // sprites.hpp
+
 // Appends the chunks [first, first + count) of an instance that the view may see; indices count from `first`.
 void place_chunks(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance,
-                  const View& view, const ViewCuller& culler, PlacedChunks& out);
+                  const View& view, const ViewCuller& culler, PlacedChunks& out, const SpriteRule* sprites = nullptr);
 
 } // namespace mote::passes

@@ -118,6 +118,11 @@ Picture GpuTest::check(const Scene& scene, const View& view, const Bars& bars) {
   EXPECT_EQ(vertex.depth, geometry.depth);
   EXPECT_EQ(vertex.normal, geometry.normal);
   EXPECT_EQ(vertex.display, geometry.display);
+  const Picture point = draw(scene, view, {.expansion = Expansion::Point});
+  EXPECT_EQ(vertex.id, point.id);
+  EXPECT_EQ(vertex.depth, point.depth);
+  EXPECT_EQ(vertex.normal, point.normal);
+  EXPECT_EQ(vertex.display, point.display);
   expect_equals_reference(vertex, scene, view, bars);
   // FC-29: with the alarm on, not one fragment is magenta.
   const Picture alarm = draw(scene, view, {.expansion = Expansion::Vertex, .show_depth_violation = true});
