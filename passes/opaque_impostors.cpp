@@ -112,7 +112,8 @@ private:
   bool record_tiles(rg::PassContext& context, const ParticleStore& store) {
     const Scene& scene = selected(context.frame().get<Scene>());
     const View& view = context.frame().get<View>();
-    store.place_tiles(scene, view, tiled_);
+    const bool exact = aovs_ != 0 || context.kept("depth");
+    store.place_tiles(scene, view, exact, tiled_);
     if (!tiles_) tiles_ = std::make_unique<TileRenderer>(context.device(), pipelines_->frame_layout());
     if (tiled_.chunks.empty()) return false;
     tiles_->update(tiled_, view.size.width, view.size.height);

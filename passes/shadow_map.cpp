@@ -133,7 +133,10 @@ private:
     gpu::RenderPass pass = context.encoder().begin_render_pass({.label = "shadow_map", .colors = colors, .depth = gpu::DepthAttachment{.view = &depth}});
     for (const ParticleDraw& particles : placed_.draws) {
       if (!selection_.draws(*particles.batch)) continue;
-      ParticlePipelineKey key{.type = particles.batch->type, .phase = Phase::Shadow, .near_eye = particles.near_eye};
+      if (ids_ && particles.affine)
+        fail(Exit::BadInput, "P018", light_loc_, fmt::format("'{}' is scaled unevenly; a map of casters holds spheres only", particles.batch->name),
+             {"method = \"depth\" holds every shape."});
+      ParticlePipelineKey key{.type = particles.batch->type, .phase = Phase::Shadow, .near_eye = particles.near_eye, .affine = particles.affine};
       key.orthographic = info_.view.projection == Projection::Orthographic;
       key.opaque_only = !transparent_ && has_own_alpha(*particles.batch);
       key.per_particle_color = key.opaque_only;

@@ -79,7 +79,7 @@ private:
 
   Use make_use(const Node&, const Slot& slot, int in, int out, std::uint32_t position) {
     const int v = out >= 0 ? out : in;
-    Use use{.slot = slot.name, .access = slot.access, .optional = slot.optional || (slot.makes && in >= 0), .state = slot.state};
+    Use use{.slot = slot.name, .access = slot.access, .optional = slot.optional || (slot.makes && in >= 0), .state = slot.state, .sampled_too = slot.sampled_too};
     use.buffer = std::holds_alternative<BufferSpec>(r_.versions[at(v)].spec);
     if (in >= 0) use.source = r_.name(in);
     if (out >= 0) use.gives = r_.name(out);

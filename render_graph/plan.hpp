@@ -25,6 +25,7 @@ struct Use {
   std::string gives{};  // "glyphs.color" that is written; empty: read only
   bool optional{};      // the pass can do without it (inputs)
   bool state{};
+  bool sampled_too{};   // the pass also reads what it writes, as Slot says
   gpu::LoadOp load{gpu::LoadOp::Load};    // attachments
   gpu::StoreOp store{gpu::StoreOp::Store}; // attachments
   bool operator==(const Use&) const = default;

@@ -50,6 +50,7 @@ std::string UseCheck::name(const SeenUse& seen, std::size_t pass) const {
 gpu::Use UseCheck::allows(const Use& use, const SeenUse& seen) const {
   if (use.buffer != seen.buffer || physical(use) != seen.physical) return gpu::Use::None;
   gpu::Use allowed = allowed_uses(use.access, use.buffer);
+  if (use.sampled_too) allowed |= gpu::Use::Sampled;
   // Attachments that are filled by copies have the usage for it.
   if (!use.buffer && writes(use.access) && gpu::has(plan_.textures[use.resource].usage, gpu::TextureUsage::CopyDst)) allowed |= gpu::Use::CopyDst;
   return allowed;

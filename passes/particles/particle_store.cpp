@@ -257,7 +257,7 @@ TileDraw near_draw(TileDraw draw) {
 }
 } // namespace
 
-void ParticleStore::place_tiles(const Scene& scene, const View& view, TiledView& out, std::uint32_t slot) const {
+void ParticleStore::place_tiles(const Scene& scene, const View& view, bool exact, TiledView& out, std::uint32_t slot) const {
   Impl::Placements& placed = impl_->placements[slot];
   placed.chunks.clear();
   placed.payloads.clear();
@@ -280,7 +280,7 @@ void ParticleStore::place_tiles(const Scene& scene, const View& view, TiledView&
         if (added) out.slices.push_back({slice.records, slice.rows, slice.colors});
         chunks.rest.far.clear(), chunks.rest.near.clear(), chunks.rest.payloads.clear();
         place_for_tiles(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler,
-                        static_cast<std::uint32_t>(out.draws.size()), chunks);
+                        static_cast<std::uint32_t>(out.draws.size()), exact, chunks);
         out.draws.push_back(tile_draw(batch, k, view, out.materials));
         out.draws.back().slice = known->second & 0x7FFFu;
         out.draws.back().first_flag = out.flags;

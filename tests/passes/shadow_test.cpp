@@ -273,6 +273,13 @@ TEST_F(ShadowMistakes, LightsThatOneMapCannotHold) {
   EXPECT_THAT(message(scene, {}), testing::AllOf(HasSubstr("error P017"), HasSubstr("85.94 degrees")));
 }
 
+TEST_F(ShadowMistakes, EllipsoidsInAMapOfCasters) {
+  Scene scene = cloud(10, 0.5, sun({1, 0, 0}));
+  scene.batches[0].instances[0].world_from_data[0][0] = 2.0;
+  EXPECT_EQ(message(scene, {"shadow.method=\"depth\""}), "it was drawn");
+  EXPECT_THAT(message(scene, {}), testing::AllOf(HasSubstr("error P018"), HasSubstr("scaled unevenly"), HasSubstr("method = \"depth\"")));
+}
+
 TEST_F(ShadowMistakes, AMapThatTheDeviceOrMemoryCannotHold) {
   const Scene scene = cloud(10, 0.5, sun({1, 0, 0}));
   EXPECT_THAT(message(scene, {"shadow.size=65536"}), testing::AllOf(HasSubstr("shadowed.toml:7:1: error G070: the width of 'shadow.map'"), HasSubstr("65536")));

@@ -74,7 +74,7 @@ void add_near(const ChunkSet& set, std::uint64_t chunk, const ChunkPlacer& place
 namespace {
 
 void place_range(const ChunkSet& set, std::uint64_t first, std::uint64_t begin, std::uint64_t end, const ChunkPlacer& placer, const TileRects& rects,
-                 std::uint32_t draw, PlacedForTiles& out) {
+                 std::uint32_t draw, bool exact, PlacedForTiles& out) {
   PlacedBox box;
   TileChunk tiled;
   tiled.draw = draw;
@@ -82,7 +82,7 @@ void place_range(const ChunkSet& set, std::uint64_t first, std::uint64_t begin, 
     if (!placer.place(set.chunks[first + i], box)) continue;
     bool any = false;
     const double radius = placer.scale() * double{set.chunks[first + i].max_radius};
-    if (!placer.similar() || !rects.place(box, radius, tiled, any) || (box.near && box.distance < 2 * radius)) {
+    if (!placer.similar() || !rects.place(box, radius, tiled, any) || (box.near && (exact || box.distance < 2 * radius))) {
       placer.add(set, first + i, i, box, out.rest);
     } else if (any && box.near) {
       add_near(set, first + i, placer, box, tiled, out);
@@ -113,15 +113,15 @@ constexpr std::uint64_t chunks_per_thread = 4096;
 } // namespace
 
 void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance, const View& view,
-                     const ViewCuller& culler, std::uint32_t draw, PlacedForTiles& out) {
+                     const ViewCuller& culler, std::uint32_t draw, bool exact, PlacedForTiles& out) {
   const ChunkPlacer placer(instance, view, culler);
   const TileRects rects(view);
   const std::uint32_t parts = thread_count(count, chunks_per_thread);
-  if (parts == 1) return place_range(set, first, 0, count, placer, rects, draw, out);
+  if (parts == 1) return place_range(set, first, 0, count, placer, rects, draw, exact, out);
   std::vector<PlacedForTiles> own(parts);
   parallel_parts(count, parts, [&](std::uint32_t part, std::uint64_t begin, std::uint64_t end) {
     own[part].tiled.reserve(end - begin);
-    place_range(set, first, begin, end, placer, rects, draw, own[part]);
+    place_range(set, first, begin, end, placer, rects, draw, exact, own[part]);
   });
   for (PlacedForTiles& part : own) append(out, part);
 }

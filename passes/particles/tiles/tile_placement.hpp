@@ -5,7 +5,7 @@
 // Tiles serve chunks that lie wholly behind the eye's and the near plane and not beyond the far cut. Of those near the eye,
 // where float32 placement would show in the depth, the particles are placed here one by one, in double. What is so near that
 // the intersection would need more than its plain form (nearer than the diameter of a particle) is given back with the rest,
-// to be drawn by a raster expansion; few chunks are.
+// to be drawn by a raster expansion; few chunks are. Where depth or normals are asked for (`exact`), that is everything near.
 #pragma once
 
 #include "passes/particles/placement.hpp"
@@ -24,6 +24,6 @@ struct PlacedForTiles {
 
 // Appends those of the chunks [first, first + count) of an instance that the view may see. `draw` goes into TileChunk.
 void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance, const View& view,
-                     const ViewCuller& culler, std::uint32_t draw, PlacedForTiles& out);
+                     const ViewCuller& culler, std::uint32_t draw, bool exact, PlacedForTiles& out);
 
 } // namespace mote::passes

@@ -223,6 +223,21 @@ void main() {
     tiles[4u * tile + 3u] = step.stamp;
   }
 
+  // A tile that is cast for the first time in this frame: its open pixels are told from those of an earlier frame.
+  uint open_rows = 0u;
+#define OPEN(k) open_rows |= untouched && won[k] == no_particle && key[k] > 0.0 ? 1u << (k) : 0u;
+  FOR_PIXELS(OPEN)
+  open_rows = subgroupOr(open_rows);
+  do {
+    int row = findLSB(open_rows);
+    bool mine_open = false;
+#define IS_OPEN(k) mine_open = row == (k) ? won[k] == no_particle && key[k] > 0.0 : mine_open;
+    FOR_PIXELS(IS_OPEN)
+    uvec2 pixel = base + pixel_of(row);
+    if (mine_open) nearest[pixel.y * u.width + pixel.x] = infinitely_far;
+    open_rows &= open_rows - 1u;
+  } while (open_rows != 0u);
+
   // Only rows of pixels in which something changed: in later rounds few do.
   uint changed = 0u;
 #define CHANGED(k) changed |= won[k] != no_particle ? 1u << (k) : 0u;
