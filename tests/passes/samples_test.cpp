@@ -109,7 +109,7 @@ protected:
 
 TEST_F(Samples, ErrorsOfThePatternsOnEdges) {
   const Scene scene = discs();
-  const auto area = render_reference_area(reference::build_world(scene), view(scene), 16);
+  const auto area = render_reference_area(reference::build_world(scene), view(scene), 10);
   const auto error = [&](const std::string& samples) { return edge_error(draw(scene, view(scene), {}, {"opaque.samples=" + samples}), area); };
   EXPECT_GT(error("1"), 0.2);
   EXPECT_LE(error("{ pattern = \"jittered\", n = 16 }"), 0.045);
@@ -175,7 +175,7 @@ TEST_F(AnalyticEdges, CoverageOfDiscsOfEightPixels) {
 TEST_F(AnalyticEdges, CoverageInPerspective) {
   Scene scene = grid(8, 6, 24);
   const View camera = look(scene, {75, 75, 200}, {75, 75, 0}, {190, 190}, 50.0);
-  const auto area = render_reference_area(reference::build_world(scene), camera, 24);
+  const auto area = render_reference_area(reference::build_world(scene), camera, 12);
   EXPECT_LE(edge_error(draw(scene, camera, {}, {"opaque.edges=\"analytic\""}), area), 0.018);
 }
 
@@ -191,11 +191,11 @@ TEST_F(AnalyticEdges, EnergyBelowAPixel) {
 TEST_F(AnalyticEdges, NoFlickerInSlowMotion) {
   const auto deviation = [&](double radius, const std::string& setting) {
     std::vector<double> energies;
-    for (int frame = 0; frame < 20; ++frame)
+    for (int frame = 0; frame < 10; ++frame)
       energies.push_back(energy(draw(grid(radius, 15, 8, {0.05 * frame, 0.03 * frame}), view(128), {}, {setting})));
     double mean = 0, square = 0;
-    for (const double e : energies) mean += e / 20;
-    for (const double e : energies) square += (e - mean) * (e - mean) / 20;
+    for (const double e : energies) mean += e / 10;
+    for (const double e : energies) square += (e - mean) * (e - mean) / 10;
     return std::sqrt(square) / mean;
   };
   for (const double radius : {0.1, 0.5, 1.0}) EXPECT_LT(deviation(radius, "opaque.edges=\"analytic\""), 0.01) << radius;

@@ -26,12 +26,14 @@ vec2 inner_place(Outline o) {
   vec2 to_pixel = -o.offset / max(length(o.offset), 1e-6);
   return o.radius < 0.85 ? o.offset + 0.745 * o.radius * to_pixel : o.inward * max(0.35 - o.inside, 0.0);
 }
-// The pixel outward of this one that the particle does not touch.
+// The nearest pixel outward of this one, one or two steps away, that the particle does not touch.
 vec2 pixel_beyond(Outline o) {
   vec2 outward = o.radius < 0.85 ? -o.offset : -o.inward;
-  vec2 extent = abs(outward);
-  float steps = (o.radius < 0.85 ? max(extent.x, extent.y) < 0.25 : o.inside > 0.29) ? 2.0 : 1.0;
-  return round(outward * (steps / max(max(extent.x, extent.y), 1e-6)));
+  float extent = max(abs(outward.x), abs(outward.y));
+  vec2 one = round(outward / max(extent, 1e-6)), two = round(2.0 * outward / max(extent, 1e-6));
+  bool touched = o.inside - dot(one, -o.inward) > -0.5 * (abs(o.inward.x) + abs(o.inward.y)) - 0.02;
+  if (o.radius < 0.85) touched = extent < 0.25;
+  return touched ? two : one;
 }
 #endif
 
