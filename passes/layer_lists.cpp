@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "passes/layer_lists.hpp"
 
+#include "core/math/principal_axes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,7 +57,7 @@ std::vector<std::uint64_t> entries_per_row(const Scene& scene, const View& view,
     for (const Instance& instance : batch.instances) {
       const glm::dmat3 instance_linear(instance.world_from_data), linear = view.rotation * instance_linear;
       const glm::dvec3 translation = glm::dvec3(instance.world_from_data[3]) - view.eye;
-      const double scale = similarity_scale(instance.world_from_data).value_or(std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])}) * std::sqrt(3.0));
+      const double scale = similarity_scale(instance.world_from_data).value_or(principal_axes(linear).longest());
       for (std::size_t c = 0; c < set.chunks.size(); ++c) {
         const glm::dvec3 origin = view.rotation * (instance_linear * set.chunks[c].origin + translation);
         for (std::uint64_t i = c * chunk_capacity; i < c * chunk_capacity + set.chunks[c].count; ++i) {

@@ -2,6 +2,7 @@
 #include "passes/particles/order.hpp"
 
 #include "core/base/parallel.hpp"
+#include "core/math/principal_axes.hpp"
 #include "passes/particles/pipelines.hpp"
 #include "passes/particles/radix_sort.hpp"
 
@@ -26,7 +27,7 @@ struct Source {
 Source source_of(const Batch& batch, std::size_t instance, const View& view) {
   const glm::dmat4& m = batch.instances[instance].world_from_data;
   Source s{&batch, instance, glm::dmat3(m), glm::dvec3(m[3]) - view.eye, 1.0, !similarity_scale(m)};
-  s.scale = similarity_scale(m).value_or(std::max({glm::length(s.linear[0]), glm::length(s.linear[1]), glm::length(s.linear[2])}));
+  s.scale = s.affine ? principal_axes(s.linear).longest() : *similarity_scale(m);
   return s;
 }
 

@@ -105,6 +105,22 @@ TEST_F(Transparent, EntryAndExitAreShadedAndBlockAlphaTogether) {
   for (const std::string& order : ordered) expect_color(center(scene, order), glm::dvec3(0.0));
 }
 
+// A sphere stretched to half axes 3, 1, 1, and one that is not, in one order.
+TEST_F(Transparent, EllipsoidsBesideSpheres) {
+  glm::dmat4 stretched(1.0);
+  stretched[0][0] = 3.0;
+  Scene scene = join({placed(flat_sphere({0, 0, 0, 1}, red, 0.5), {stretched}), flat_sphere({0, 0, 3, 0.4}, green, 0.5)});
+  scene.background = {0, 0, 0, 1};
+  for (const std::string& order : ordered)
+    for (const passes::Expansion expansion : {passes::Expansion::Vertex, passes::Expansion::Geometry}) {
+      SCOPED_TRACE(order);
+      const Colors colors = draw(scene, graph_with(order), {.expansion = expansion});
+      expect_color(colors.center(), {0.25, 0.5, 0});
+      expect_color(colors.at(4, 32), {0.5, 0, 0}); // 2.3 to the left
+      expect_color(colors.at(32, 10), {0, 0, 0});  // 1.8 above
+    }
+}
+
 TEST_F(Transparent, WeightedIsExactForOneColorAndNeedsNoOrder) {
   const Scene one = flat_sphere({0, 0, 0, 1}, red, 0.5);
   Scene scene = one;
