@@ -102,6 +102,9 @@ private:
 
 // A source that holds its bytes and knows how to refuse a frame that is not there (D017).
 class BinarySource : public Source {
+public:
+  void release_pages() override { bytes_->release_pages(); }
+
 protected:
   explicit BinarySource(std::shared_ptr<Bytes> bytes);
   [[nodiscard]] ByteReader reader(Order order, std::uint64_t at = 0) const { return {*bytes_, order, at}; }

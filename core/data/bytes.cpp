@@ -128,6 +128,10 @@ void Bytes::release() {
   mapped_ = false;
 }
 
+void Bytes::release_pages() const {
+  if (mapped_) ::madvise(data_, size_, MADV_DONTNEED);
+}
+
 std::shared_ptr<Bytes> Bytes::load(const std::filesystem::path& file, std::uint64_t limit) {
   std::shared_ptr<Bytes> bytes(new Bytes);
   const bool standard_input = file == "-";

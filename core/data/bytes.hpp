@@ -34,6 +34,8 @@ public:
   // The same without a UTF-8 byte order mark. A file whose first 64 KiB hold a line end of the old
   // Macintosh kind (a lone \r) is copied with these turned into \n.
   [[nodiscard]] std::string_view text();
+  // Pages of a mapped file leave the memory of this process (the kernel may keep them); nothing otherwise.
+  void release_pages() const;
   [[nodiscard]] bool compressed() const { return compressed_; }
   [[nodiscard]] const Diagnostics& warnings() const { return warnings_; }
 

@@ -34,13 +34,16 @@ inline constexpr std::string_view quote = "D021";
 inline constexpr std::string_view cut_frame = "D022";
 inline constexpr std::string_view trailing = "D023";
 inline constexpr std::string_view unnamed = "D024";
+inline constexpr std::string_view series_pattern = "D025";
+inline constexpr std::string_view pair = "D026";
+inline constexpr std::string_view frame_list = "D027";
 } // namespace code
 
 struct CodeLine {
   std::string_view code{}, line{};
 };
 
-inline constexpr std::array<CodeLine, 24> code_table{{
+inline constexpr std::array<CodeLine, 27> code_table{{
     {code::cannot_open, "error: a file is missing, is a folder or may not be read"},
     {code::empty, "error: a file holds no data at all"},
     {code::gzip, "error: a gzip stream is cut off or damaged"},
@@ -65,6 +68,9 @@ inline constexpr std::array<CodeLine, 24> code_table{{
     {code::cut_frame, "warning: the last frame is cut off and left out"},
     {code::trailing, "warning: bytes behind the end of the data are ignored"},
     {code::unnamed, "warning: columns without names are kept as column_4, column_5, ..."},
+    {code::series_pattern, "error: a pattern of file names that no file fits"},
+    {code::pair, "error: topology and trajectory do not belong together"},
+    {code::frame_list, "usage: a list of frames that is none"},
 }};
 
 // No reader takes more fields per row than this; a longer row is an accident or an attack.

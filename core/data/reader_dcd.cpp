@@ -210,7 +210,7 @@ Sureness probe(const Probe& file) { return find_marks(file.head) ? Sureness::Cer
 } // namespace
 
 Reader dcd_reader() {
-  return {{"dcd", "CHARMM, NAMD and X-PLOR trajectory", "dcd"},
+  return {{"dcd", "CHARMM, NAMD and X-PLOR trajectory", "dcd", true},
           probe,
           [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
             return std::make_unique<DcdSource>(std::move(bytes));

@@ -169,7 +169,7 @@ Sureness probe(const Probe& file) {
 } // namespace
 
 Reader netcdf_reader() {
-  return {{"netcdf", "AMBER trajectory or restart in classic NetCDF", "nc ncdf ncrst"},
+  return {{"netcdf", "AMBER trajectory or restart in classic NetCDF", "nc ncdf ncrst", true},
           probe,
           [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
             return std::make_unique<NetcdfSource>(std::move(bytes));

@@ -143,7 +143,7 @@ Sureness probe(const Probe& file) {
 } // namespace
 
 Reader trr_reader() {
-  return {{"trr", "GROMACS full-precision trajectory (nm, ps)", "trr"},
+  return {{"trr", "GROMACS full-precision trajectory (nm, ps)", "trr", true},
           probe,
           [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
             return std::make_unique<TrrSource>(std::move(bytes));

@@ -142,7 +142,7 @@ Sureness probe(const Probe& file) {
 } // namespace
 
 Reader xtc_reader() {
-  return {{"xtc", "GROMACS compressed trajectory (nm, ps)", "xtc"},
+  return {{"xtc", "GROMACS compressed trajectory (nm, ps)", "xtc", true},
           probe,
           [](std::shared_ptr<Bytes> bytes) -> std::unique_ptr<Source> {
             return std::make_unique<XtcSource>(std::move(bytes));

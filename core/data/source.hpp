@@ -25,6 +25,8 @@ public:
   [[nodiscard]] virtual std::string_view format() const = 0; // "xyz", "lammps-dump", "npy", "csv"
   [[nodiscard]] virtual std::uint64_t frame_count() = 0;      // at least 1; reads the whole file once
   [[nodiscard]] virtual Frame read(std::uint64_t frame) = 0;  // 0-based; frame 0 never needs the index
+  // Lets go of the file's pages that were looked at: reading them again costs time, no memory stays.
+  virtual void release_pages() {}
   [[nodiscard]] const Diagnostics& warnings() const { return warnings_; }
 
 protected:
@@ -36,6 +38,7 @@ std::unique_ptr<Source> open(const std::filesystem::path& file);
 // The formats that open() knows, for `mote formats` and messages.
 struct Format {
   std::string_view name{}, summary{}, extensions{};
+  bool positions_only{}; // of particles that another file describes (series.hpp)
 };
 std::span<const Format> formats();
 

@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 namespace mote::data {
+namespace {
+constexpr std::uint64_t pages_kept = std::uint64_t{64} << 20; // bytes
+}
 
 TextTrajectory::TextTrajectory(std::shared_ptr<Bytes> bytes)
     : bytes_(std::move(bytes)), text_(bytes_->text()) {
@@ -24,6 +27,10 @@ void TextTrajectory::look_further() {
   const std::size_t last = starts_.size() - 1;
   Cursor cursor = at(last);
   const Step step = skip_frame(cursor);
+  if (cursor.offset() - released_ > pages_kept) { // an index of a large file needs no memory of its size
+    bytes_->release_pages();
+    released_ = cursor.offset();
+  }
   if (step == Step::Whole) {
     cursor.skip_blank();
     complete_ = cursor.at_end();

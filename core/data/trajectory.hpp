@@ -17,6 +17,7 @@ class TextTrajectory : public Source {
 public:
   std::uint64_t frame_count() override;
   Frame read(std::uint64_t frame) override; // D017 when there is no such frame
+  void release_pages() override { bytes_->release_pages(); }
 
 protected:
   explicit TextTrajectory(std::shared_ptr<Bytes> bytes);
@@ -41,6 +42,7 @@ private:
   std::shared_ptr<Bytes> bytes_;
   std::string_view text_;
   std::vector<Place> starts_{}; // of frames 0..k; the last one may still be cut
+  std::uint64_t released_{}; // how far into the text pages were let go
   bool complete_{};
 };
 
