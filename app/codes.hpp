@@ -26,15 +26,19 @@ inline constexpr std::string_view compare_input = "A013";
 inline constexpr std::string_view validation = "A014";
 inline constexpr std::string_view twice_to_stdout = "A015";
 inline constexpr std::string_view panel = "A016";
+inline constexpr std::string_view no_frames = "A017";
+inline constexpr std::string_view numbered_output = "A018";
+inline constexpr std::string_view shard = "A019";
 inline constexpr std::string_view alpha_ignored = "A020";
 inline constexpr std::string_view shadows_ignored = "A021";
 inline constexpr std::string_view tolerance_ignored = "A022";
+inline constexpr std::string_view movie = "A023";
 } // namespace code
 
 struct AppCode {
   std::string_view code{}, line{};
 };
-inline constexpr std::array<AppCode, 19> app_codes{{
+inline constexpr std::array<AppCode, 23> app_codes{{
     {code::command_line, "usage: an unknown option, a missing argument, words that do not fit together"},
     {code::size, "usage: --size is not WIDTHxHEIGHT, each from 1 to 32768"},
     {code::output_ending, "usage: an output file of an ending that cannot be written"},
@@ -51,9 +55,13 @@ inline constexpr std::array<AppCode, 19> app_codes{{
     {code::validation, "failed: the validation layer had something to say"},
     {code::twice_to_stdout, "usage: two outputs to standard output"},
     {code::panel, "usage: --panel is no number of pixels from 16, or a dump of a picture that is drawn in panels"},
+    {code::no_frames, "usage: a list of frames that leaves none"},
+    {code::numbered_output, "usage: many pictures need %d or %04d in the output's name, one picture must not have it"},
+    {code::shard, "usage: --shard is not K/N with K from 0 to N"},
     {code::alpha_ignored, "warning: the graph has no pass for transparent particles"},
     {code::shadows_ignored, "warning: a light asks for shadows, but the graph has no shadow_map pass for it"},
     {code::tolerance_ignored, "warning: the tolerance is not used"},
+    {code::movie, "failed: a movie cannot be made (ffmpeg is missing or failed)"},
 }};
 
 } // namespace mote::app

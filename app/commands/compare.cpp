@@ -9,6 +9,7 @@
 #include "core/image/exr.hpp"
 #include "core/image/npy.hpp"
 #include "core/image/png.hpp"
+#include "core/overlay/annotate.hpp"
 #include "core/reference/reference.hpp"
 
 #include <fmt/format.h>
@@ -115,6 +116,10 @@ CompareInput reference_like(const CompareInput& like, const CompareArguments& a)
   out.ambiguous = traced.layers_ambiguous.empty() ? std::move(traced.ambiguous) : std::move(traced.layers_ambiguous);
   out.projected_radius = std::move(traced.projected_radius);
   for (const glm::dvec3& n : traced.normal) out.normal.emplace_back(n);
+  if (!job.scene.annotations.empty() && !traced.color.empty()) { // the picture has them as well
+    const std::vector<float> depth(traced.depth.begin(), traced.depth.end());
+    overlay::lay_over_linear(overlay::draw_annotations(job.scene, job.view(), depth), traced.color);
+  }
   for (const glm::dvec4& c : traced.color) out.color.emplace_back(c);
   return out;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // mote info: what is in a particle file (or in each data set of a scene): particles, frames, box, columns.
 #include "app/commands/command.hpp"
-#include "core/data/source.hpp"
+#include "core/data/series.hpp"
 #include "core/scene/assembly.hpp"
+#include "core/scene/scene_source.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,7 @@ using Json = nlohmann::ordered_json;
 
 struct InfoArguments {
   std::vector<std::string> words{};
+  std::optional<std::int64_t> frame{};
   bool json{};
 };
 
@@ -49,6 +51,7 @@ struct FileInfo {
   std::string name{}, format{};
   std::uint64_t frames{1};
   data::Frame frame{};
+  std::uint64_t index{}; // of that frame
   std::uint64_t instances{1}; // copies of the unit in the assembly that is drawn
 };
 
@@ -60,10 +63,12 @@ std::uint64_t count_instances(const data::Frame& frame, const std::optional<Loca
   return most;
 }
 
-FileInfo read_file(const DataDesc& data, Diagnostics& diagnostics) {
+FileInfo read_file(const DataDesc& data, std::int64_t frame, Diagnostics& diagnostics) {
   const std::string name = data.file.value.string();
-  const std::unique_ptr<data::Source> source = data::open(name);
-  FileInfo info{name, std::string(source->format()), 1, source->read(0)};
+  const std::unique_ptr<data::Source> source = data::open_series(files_of(data));
+  FileInfo info{name, std::string(source->format()), 1, {}};
+  if (frame != 0) info.index = data::frame_index(frame, source->frame_count(), {"--frame"});
+  info.frame = source->read(info.index);
   info.frames = source->frame_count();
   info.instances = count_instances(info.frame, data.assembly, name, diagnostics);
   diagnostics.append(source->warnings());
@@ -118,6 +123,8 @@ void print_text(const FileInfo& info) {
     for (const data::Assembly& assembly : frame.assemblies) names.push_back(assembly.name);
     fmt::print("  assemblies {}; {} copies in the one that is drawn\n", list_of(names), info.instances);
   }
+  if (info.index) fmt::print("  frame {}\n", info.index);
+  if (!frame.bonds.rows.empty()) fmt::print("  bonds {}\n", frame.bonds.rows.size());
   if (frame.time) fmt::print("  time {}\n", *frame.time);
   if (frame.step) fmt::print("  step {}\n", *frame.step);
   if (frame.box) {
@@ -139,18 +146,19 @@ void print_text(const FileInfo& info) {
 }
 
 // The files that the words name; of a scene those of its data sets.
-std::vector<FileInfo> gather(const std::vector<std::string>& words, Diagnostics& diagnostics) {
+std::vector<FileInfo> gather(const InfoArguments& a, Diagnostics& diagnostics) {
   std::vector<FileInfo> files;
-  const SceneDesc desc = describe(words, {}, diagnostics);
+  const SceneDesc desc = describe(a.words, {}, diagnostics);
+  const std::int64_t frame = a.frame ? *a.frame : desc.frame ? desc.frame->value : 0;
   if (diagnostics.has_errors()) return files;
   for (const DataDesc& data : desc.data)
-    files.push_back(data.generated ? generated_info(desc.name, *data.generated) : read_file(data, diagnostics));
+    files.push_back(data.generated ? generated_info(desc.name, *data.generated) : read_file(data, frame, diagnostics));
   return files;
 }
 
 void run(const InfoArguments& a) {
   Diagnostics diagnostics;
-  const std::vector<FileInfo> files = gather(a.words, diagnostics);
+  const std::vector<FileInfo> files = gather(a, diagnostics);
   print_and_stop_on_errors(diagnostics);
   if (!a.json) {
     for (const FileInfo& file : files) print_text(file);
@@ -167,6 +175,7 @@ void add_info(CLI::App& app, Exit& exit) {
   CLI::App* command = app.add_subcommand("info", "what is in a particle file");
   auto a = std::make_shared<InfoArguments>();
   command->add_option("FILE", a->words, "particle files, a scene, or a generated name")->required();
+  command->add_option("--frame", a->frame, "frame of a series, from 0; -1 is the last")->type_name("N");
   command->add_flag("--json", a->json, "as JSON; an array when there are several files");
   command->callback([a, &exit] {
     run(*a);

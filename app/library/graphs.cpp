@@ -14,7 +14,7 @@ namespace mote::app {
 namespace {
 
 const std::vector<std::string> scene_keys{"schema", "graph", "color_space", "background", "tolerance",
-                                          "camera", "ambient", "light",     "data"};
+                                          "camera", "ambient", "light",     "data",  "frame",      "legend"};
 
 bool is_path(std::string_view graph) { return graph.find('/') != std::string_view::npos || graph.ends_with(".toml"); }
 
@@ -60,6 +60,20 @@ void deepen_output(rg::GraphDesc& graph) {
   output.slot = {source->slot, {"--bits"}};
   output.format = format;
   pass->outputs.push_back(std::move(output));
+}
+
+// So that legends go through the same transform.
+void read_display(rg::GraphDesc& graph, PassDisplay& ready) {
+  const rg::PassDesc* pass = pass_of_output(graph);
+  if (!pass || pass->kind.text != "ocio_tonemap") return;
+  for (const rg::Entry& entry : pass->params) {
+    const auto* text = std::get_if<std::string>(&entry.value.data);
+    if (text && entry.key == "display") ready.display = *text;
+    if (text && entry.key == "view") ready.view = *text;
+    if (entry.key != "exposure") continue;
+    if (const auto* real = std::get_if<double>(&entry.value.data)) ready.exposure = *real;
+    if (const auto* whole = std::get_if<std::int64_t>(&entry.value.data)) ready.exposure = static_cast<double>(*whole);
+  }
 }
 
 void check_settings(const GraphRequest& request, const rg::GraphDesc& graph, Diagnostics& diagnostics) {
@@ -132,6 +146,7 @@ std::optional<ReadyGraph> ready_graph(const GraphRequest& request, Diagnostics& 
 
   ReadyGraph ready;
   ready.output = graph.output.text;
+  read_display(graph, ready.shown);
   rg::CompileOptions options;
   options.roots = request.dumps;
   if (request.linear) {
@@ -140,7 +155,7 @@ std::optional<ReadyGraph> ready_graph(const GraphRequest& request, Diagnostics& 
   }
   for (Aov aov : {Aov::Depth, Aov::Id, Aov::Normal}) {
     const bool asked = std::find(request.aovs.begin(), request.aovs.end(), aov) != request.aovs.end();
-    if (!asked && !request.every_aov) continue;
+    if (!asked && !request.every_aov && !(aov == Aov::Depth && request.depth_if_made)) continue;
     const std::string name(aov_names[static_cast<std::size_t>(aov)]);
     const std::string source = source_of_slot(graph, "aov_" + name);
     if (!source.empty()) {

@@ -31,6 +31,13 @@ struct GraphRequest {
   std::vector<rg::LocatedString> dumps{};   // further sources
   bool linear{};                            // the picture before the display transform, too
   bool deep{};                              // the output in float instead of 8 bits
+  bool depth_if_made{};                     // depth as well, if the graph makes it
+};
+
+// What the display pass at the end of a graph says about its transform.
+struct PassDisplay {
+  std::string display{}, view{}; // empty: it leaves them to others
+  double exposure{};             // stops
 };
 
 struct ReadyGraph {
@@ -39,6 +46,7 @@ struct ReadyGraph {
   std::string output{}; // source of the picture
   std::string linear{}; // source of the scene-linear picture; empty if not asked for
   std::map<Aov, std::string> aovs{};
+  PassDisplay shown{};
 };
 
 std::vector<std::string> shipped_graphs();

@@ -2,6 +2,7 @@
 #include "app/library/job.hpp"
 
 #include "app/codes.hpp"
+#include "core/data/series.hpp"
 #include "passes/particles/selection.hpp"
 
 #include <fmt/format.h>
@@ -48,13 +49,39 @@ void warn_of_limits(const SceneDesc& desc, Diagnostics& diagnostics) {
                         "the tolerance is not used: this version has one method, which is exact at the pixel centers");
 }
 
-bool is_transparent(const Scene& scene) { return std::any_of(scene.batches.begin(), scene.batches.end(), passes::may_be_transparent); }
+// By the description as well, because the scene of a batch of pictures is not there yet.
+bool is_transparent(const Job& job) {
+  const auto asks = [](const DataDesc& data) { return data.alpha < 1.0 || data.opacity.rule != AlphaRule::Constant; };
+  return std::any_of(job.desc.data.begin(), job.desc.data.end(), asks) ||
+         std::any_of(job.scene.batches.begin(), job.scene.batches.end(), passes::may_be_transparent);
+}
 
 void check_ids(const JobRequest& request, const Scene& scene, Diagnostics& diagnostics) {
   const bool wanted = request.every_aov || std::find(request.aovs.begin(), request.aovs.end(), Aov::Id) != request.aovs.end();
   if (wanted && scene.particle_count() > 0xFFFFFFFEu)
     diagnostics.error(code::too_many_ids, {"--aov"},
                       fmt::format("the scene has {} particles; the id AOV counts 4294967294", scene.particle_count()));
+}
+
+void realize_frame(Job& job, Diagnostics& diagnostics) {
+  job.scene = realize(job.desc, job.size, *job.source, job.frame, diagnostics);
+  if (job.transparent) job.scene.background.a = 0.0;
+}
+
+// One frame or many, by index; needs the number of frames as soon as one is named.
+void choose_frames(Job& job, const JobRequest& request, Diagnostics& diagnostics) {
+  if (!job.desc.frame && !request.frames) return;
+  const std::uint64_t count = job.source->frame_count(diagnostics);
+  if (count == 0) return;
+  try {
+    if (!request.frames) job.frame = data::frame_index(job.desc.frame->value, count, job.desc.frame->loc);
+    else job.frames = data::frame_list(*request.frames, count, {"--frames"});
+  } catch (const Failure& failure) {
+    diagnostics.add(failure.diagnostic());
+    return;
+  }
+  if (request.frames && job.frames.empty())
+    diagnostics.error(code::no_frames, {"--frames"}, fmt::format("'{}' names none of {} frames", *request.frames, count));
 }
 
 } // namespace
@@ -83,11 +110,15 @@ Job load_job(const JobRequest& request, Diagnostics& diagnostics) {
   job.graph.dumps = request.dumps;
   job.graph.linear = request.linear;
   job.graph.deep = request.deep;
+  job.transparent = request.transparent;
+  if (request.frame) job.desc.frame = Located<std::int64_t>{*request.frame, {"--frame"}};
+  for (const DataDesc& data : job.desc.data) job.graph.depth_if_made |= data.cell.drawn; // its edges hide behind particles
   if (diagnostics.has_errors()) return job;
-  job.scene = realize(job.desc, request.size, diagnostics);
-  if (!request.graph && !job.desc.graph && is_transparent(job.scene)) job.graph.graph = "transparent";
-  if (request.transparent) job.scene.background.a = 0.0;
+  job.source = std::make_shared<SceneSource>(job.desc);
   warn_of_limits(job.desc, diagnostics);
+  choose_frames(job, request, diagnostics);
+  if (job.frames.empty() && !diagnostics.has_errors()) realize_frame(job, diagnostics);
+  if (!request.graph && !job.desc.graph && is_transparent(job)) job.graph.graph = "transparent";
   warn_of_shadows(job.desc, job.graph, diagnostics);
   check_ids(request, job.scene, diagnostics);
   return job;
@@ -95,9 +126,14 @@ Job load_job(const JobRequest& request, Diagnostics& diagnostics) {
 
 void warn_of_graph(const Job& job, const ReadyGraph& graph, Diagnostics& diagnostics) {
   const auto draws_them = [](const rg::PlannedPass& pass) { return pass.kind == "sorted_glyphs"; };
-  if (std::any_of(graph.plan.passes.begin(), graph.plan.passes.end(), draws_them) || !is_transparent(job.scene)) return;
+  if (std::any_of(graph.plan.passes.begin(), graph.plan.passes.end(), draws_them) || !is_transparent(job)) return;
   diagnostics.warning(code::alpha_ignored, job.graph.loc, fmt::format("the graph '{}' has no pass for transparent particles: they are left out", job.graph.graph),
                       {"a pass of kind sorted_glyphs draws them; the shipped graph 'transparent' has one"});
+}
+
+void load_frame(Job& job, std::uint64_t index, Diagnostics& diagnostics) {
+  job.frame = index;
+  realize_frame(job, diagnostics);
 }
 
 Exit exit_of(const Diagnostics& diagnostics) {

@@ -6,6 +6,7 @@
 
 #include "app/library/graphs.hpp"
 #include "core/scene/realize.hpp"
+#include "core/scene/scene_source.hpp"
 
 namespace mote::app {
 
@@ -13,6 +14,8 @@ struct JobRequest {
   std::vector<std::string> words{};      // one scene, one generated name, or data files
   std::vector<std::string> settings{};   // "path=value": of the scene or of the graph
   std::optional<std::string> graph{};    // --graph; else the scene's, else "default"
+  std::optional<std::int64_t> frame{};   // --frame; else the scene's
+  std::optional<std::string> frames{};   // --frames: many pictures
   Size2d size{1280, 720};
   bool transparent{};                    // background of alpha 0
   std::vector<Aov> aovs{};
@@ -23,7 +26,11 @@ struct JobRequest {
 
 struct Job {
   SceneDesc desc{};
-  Scene scene{};
+  std::shared_ptr<SceneSource> source{}; // the files, still open
+  std::vector<std::uint64_t> frames{};   // that are asked for; empty: one picture
+  std::optional<std::uint64_t> frame{};  // that `scene` shows; nothing: the first, alone
+  Scene scene{};                         // with `frames`: empty until load_frame()
+  bool transparent{};
   GraphRequest graph{};
   Size2d size{};
   [[nodiscard]] View view() const { return view_of(scene.camera); }
@@ -35,6 +42,8 @@ struct Job {
 Job load_job(const JobRequest& request, Diagnostics& diagnostics);
 // What the scene asks for and the graph does not draw (A020).
 void warn_of_graph(const Job& job, const ReadyGraph& graph, Diagnostics& diagnostics);
+// Frame `index` of the series into job.scene. With errors the scene must not be drawn.
+void load_frame(Job& job, std::uint64_t index, Diagnostics& diagnostics);
 // The particles of a generated scene or of files; the scene's own description otherwise. Throws as describe() does.
 SceneDesc describe_job(const JobRequest& request, Diagnostics& diagnostics, GraphRequest& graph);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/library/mote.hpp"
 
-#include "app/library/frame_renderer.hpp"
+#include "app/library/annotated.hpp"
 #include "app/library/job.hpp"
 #include "app/library/panels.hpp"
 #include "core/image/png.hpp"
@@ -102,9 +102,13 @@ Image Renderer::Impl::render(const app::Job& loaded, const RenderOptions& option
   if (!graph) throw_error(diagnostics);
   app::DisplayOptions display;
   display.view = options.view;
+  const app::PassDisplay shown = graph->shown;
   app::FrameRenderer renderer(device, std::move(*graph), config, display, expansion_of(options.expansion));
   renderer.set_scene(job.scene);
   app::DrawnPicture p = app::draw_picture(renderer, job.view());
+  if (!options.legend) job.scene.annotations = {};
+  if (!job.scene.annotations.empty()) app::annotate(p, job, app::display_of(config, display, shown));
+  if (!options.depth) p.depth.clear(); // that of hidden lines
   return {p.size.width,       p.size.height,   std::move(p.rgba8), std::move(p.linear),
           std::move(p.depth), std::move(p.id), std::move(p.normal)};
 }

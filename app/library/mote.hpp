@@ -70,6 +70,7 @@ struct RenderOptions {
   std::string expansion{"auto"};
   std::string view{};                  // view transform; empty: the config's default
   bool transparent{};                  // background of alpha 0
+  bool legend{true};                   // legend, scale bar, time and cells, as far as the scene has them
   bool linear{}, depth{}, id{}, normal{}; // what else is wanted
 };
 

@@ -31,6 +31,7 @@
   X(gsd)                                                                                                     \
   X(netcdf)                                                                                                  \
   X(lammps_data)                                                                                             \
+  X(hdf5)                                                                                                    \
   X(csv)
 
 namespace mote::data {

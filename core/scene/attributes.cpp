@@ -36,6 +36,8 @@ std::optional<Attribute> find_attribute(const data::Frame& frame, std::string_vi
   if (const data::Column* column = frame.find(name)) return Attribute{column, std::nullopt};
   if (name == "speed")
     if (const data::Column* velocity = frame.find("velocity")) return Attribute{velocity, std::nullopt};
+  if (name == "type") // as users call the kind of a particle, whatever the file calls it
+    if (const data::Column* element = frame.find("element")) return Attribute{element, std::nullopt};
   const std::size_t dot = name.rfind('.');
   const bool axis = name.size() == 1 && name[0] >= 'x' && name[0] <= 'z';
   if (!axis && dot == std::string_view::npos) return std::nullopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One number per particle, by name: a column, a component of one ("velocity.x", "stress.3"), the
-// length of a vector column ("velocity", "force"), the words x, y, z and speed. Text columns count as
+// length of a vector column ("velocity", "force"), the words x, y, z and speed; "type" is the element where a
+// file has elements and no types. Text columns count as
 // kinds: 0, 1, ... in order of first appearance. Color and radius mappings read particles through this.
 #pragma once
 

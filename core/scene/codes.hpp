@@ -35,17 +35,26 @@ inline constexpr std::string_view element_missing = "S023";
 inline constexpr std::string_view radius_negative = "S024";
 inline constexpr std::string_view light_name_twice = "S025";
 inline constexpr std::string_view too_many_particles = "S026";
+inline constexpr std::string_view expression_syntax = "S027";
+inline constexpr std::string_view expression_type = "S028";
+inline constexpr std::string_view color_map_file = "S029";
 inline constexpr std::string_view position_not_finite = "S030";
 inline constexpr std::string_view radius_zero = "S031";
 inline constexpr std::string_view radius_not_finite = "S032";
 inline constexpr std::string_view value_not_finite = "S033";
 inline constexpr std::string_view element_unknown = "S034";
+inline constexpr std::string_view selection_empty = "S035";
+inline constexpr std::string_view range_empty = "S036";
+inline constexpr std::string_view no_cell = "S037";
+inline constexpr std::string_view needs_cylinders = "S038";
+inline constexpr std::string_view range_sampled = "S039";
+inline constexpr std::string_view alpha_range = "S040";
 } // namespace code
 
 struct SceneCode {
   std::string_view code{}, line{};
 };
-inline constexpr std::array<SceneCode, 31> scene_codes{{
+inline constexpr std::array<SceneCode, 40> scene_codes{{
     {code::scene_unreadable, "error: a scene file is missing, is a folder or may not be read"},
     {code::scene_syntax, "error: a scene file is not TOML"},
     {code::scene_unknown_key, "error: a key that no scene has"},
@@ -72,11 +81,20 @@ inline constexpr std::array<SceneCode, 31> scene_codes{{
     {code::radius_negative, "error: a radius is below zero"},
     {code::light_name_twice, "error: two lights have the same name"},
     {code::too_many_particles, "error: a data set has more particles than ids can count"},
+    {code::expression_syntax, "error: a selection is no expression"},
+    {code::expression_type, "error: a selection compares what cannot be compared"},
+    {code::color_map_file, "error: a color map file is missing or holds no color map"},
     {code::position_not_finite, "warning: particles without a finite position are left out"},
     {code::radius_zero, "warning: particles of radius zero are drawn as nothing"},
     {code::radius_not_finite, "warning: particles without a finite radius are left out"},
     {code::value_not_finite, "warning: particles whose color attribute is NaN are drawn in magenta"},
     {code::element_unknown, "warning: element names that are in no table"},
+    {code::selection_empty, "warning: a selection leaves no particle"},
+    {code::range_empty, "warning: no value of an attribute can be mapped (all NaN, or none above 0 for a logarithm)"},
+    {code::no_cell, "error: wrapping, replicas or outlines need a periodic cell, image flags or a volume that the file does not have"},
+    {code::needs_cylinders, "error: a molecule style that needs cylinders, which this version does not draw"},
+    {code::range_sampled, "note: the range of a long series is that of some of its frames"},
+    {code::alpha_range, "warning: opacities outside 0 to 1 are cut"},
 }};
 
 } // namespace mote

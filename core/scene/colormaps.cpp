@@ -12,14 +12,15 @@ namespace {
 constexpr std::string_view cc0 = "CC0 1.0 (S. van der Walt, N. Smith, E. Firing)";
 constexpr std::string_view brewer = "Apache-2.0 (C. Brewer, ColorBrewer)";
 
-const std::array<ColorMap, 11>& table() {
-  static const std::array<ColorMap, 11> maps{{
+const std::array<ColorMap, 12>& table() {
+  static const std::array<ColorMap, 12> maps{{
       {"viridis", "values, even steps, safe for color blindness", cc0, colormap_viridis},
       {"plasma", "values, even steps", cc0, colormap_plasma},
       {"inferno", "values, even steps, from black", cc0, colormap_inferno},
       {"magma", "values, even steps, from black", cc0, colormap_magma},
       {"cividis", "values, the same for the color-blind", "CC0 1.0 (J. Nunez, C. Anderton, R. Renslow)", colormap_cividis},
       {"turbo", "values, many hues", "Apache-2.0 (A. Mikhailov, Google)", colormap_turbo},
+      {"batlow", "values, even steps, safe for color blindness", "MIT (c) 2020 F. Crameri", colormap_batlow},
       {"gray", "values, black to white", "no rights apply", colormap_gray},
       {"coolwarm", "values about a middle, blue to red", "free (K. Moreland)", colormap_coolwarm},
       {"RdBu", "values about a middle, red to blue", brewer, colormap_RdBu},

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/realize.hpp"
 
-#include "core/data/source.hpp"
+#include "core/data/series.hpp"
 #include "core/scene/assembly.hpp"
 #include "core/scene/codes.hpp"
+#include "core/scene/expression.hpp"
 #include "core/scene/particle_values.hpp"
+#include "core/scene/scene_source.hpp"
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace mote {
 namespace {
@@ -24,23 +27,6 @@ std::shared_ptr<const data::Frame> generated_frame(const GeneratedName& name) {
   frame->columns.push_back({"position", 3, std::move(spheres.positions), ""});
   frame->columns.push_back({"radius", 1, std::move(spheres.radii), ""});
   return frame;
-}
-
-std::shared_ptr<const data::Frame> read_frame(const Located<std::filesystem::path>& file, Diagnostics& diagnostics) {
-  std::error_code error;
-  if (!std::filesystem::exists(file.value, error)) {
-    diagnostics.error(code::data_file_missing, file.loc, fmt::format("the data file '{}' does not exist", file.value.string()));
-    return nullptr;
-  }
-  try {
-    const std::unique_ptr<data::Source> source = data::open(file.value);
-    auto frame = std::make_shared<data::Frame>(source->read(0));
-    diagnostics.append(source->warnings());
-    return frame;
-  } catch (const Failure& failure) {
-    diagnostics.add(failure.diagnostic());
-    return nullptr;
-  }
 }
 
 // What can be drawn of a frame: places in `centers` and the rest that belong together.
@@ -76,7 +62,8 @@ Verdict judge(const glm::dvec3& p, double r, std::uint64_t row, Skipped& skipped
   return Verdict::Skip;
 }
 
-Drawable choose(const data::Frame& frame, std::vector<double> radii, std::vector<std::uint32_t> colors, Skipped& skipped) {
+Drawable choose(const FrameContext& context, std::vector<double> radii, std::vector<std::uint32_t> colors, Skipped& skipped) {
+  const data::Frame& frame = context.frame;
   const data::Column& position = *frame.find("position");
   Drawable out;
   out.centers.resize(frame.count);
@@ -85,6 +72,7 @@ Drawable choose(const data::Frame& frame, std::vector<double> radii, std::vector
   out.colors = std::move(colors);
   std::uint64_t kept = 0;
   for (std::uint64_t row = 0; row < frame.count; ++row) {
+    if (!context.rows.empty() && !context.rows[row]) continue;
     const glm::dvec3 p(position.number(row, 0), position.number(row, 1), position.number(row, 2));
     if (judge(p, out.radii[row], row, skipped) == Verdict::Skip) continue;
     out.centers[kept] = p;
@@ -100,7 +88,8 @@ Drawable choose(const data::Frame& frame, std::vector<double> radii, std::vector
   return out;
 }
 
-void report(const Skipped& skipped, std::uint64_t count, const FrameOrigin& origin, Diagnostics& diagnostics) {
+void report(const Skipped& skipped, const FrameContext& origin, Diagnostics& diagnostics) {
+  const std::uint64_t count = origin.frame.count;
   if (skipped.negative) {
     const std::string more = skipped.negative > 1 ? fmt::format(", and {} more are negative", skipped.negative - 1) : "";
     diagnostics.error(code::radius_negative, origin.contents,
@@ -147,27 +136,56 @@ std::shared_ptr<const ChunkSet> chunks_of(const Drawable& d) {
   return std::make_shared<ChunkSet>(build_spheres(d.centers, d.radii, d.rows, d.colors));
 }
 
+// Copies along the edges of the cell, the cell itself first.
+std::vector<glm::dmat4> replicas_of(const DataDesc& desc, const FrameContext& context, Diagnostics& diagnostics) {
+  if (desc.replicas == glm::ivec3(1)) return {glm::dmat4(1.0)};
+  if (!context.frame.box) {
+    diagnostics.error(code::no_cell, desc.loc, fmt::format("{} has no cell to repeat", context.name));
+    return {};
+  }
+  std::vector<glm::dmat4> out;
+  for (int x = 0; x < desc.replicas.x; ++x)
+    for (int y = 0; y < desc.replicas.y; ++y)
+      for (int z = 0; z < desc.replicas.z; ++z)
+        out.push_back(glm::translate(glm::dmat4(1.0), context.frame.box->edges * glm::dvec3(x, y, z)));
+  return out;
+}
+
+std::vector<Instance> instances_of(const DataDesc& desc, const std::vector<glm::dmat4>& replicas, const std::vector<glm::dmat4>& copies) {
+  std::vector<Instance> out;
+  for (const glm::dmat4& replica : replicas)
+    for (const glm::dmat4& copy : copies) out.push_back({desc.transform * replica * copy});
+  return out;
+}
+
 // One batch for each group of rows that has copies of its own; one where nothing is copied.
-std::vector<Batch> make_batches(const DataDesc& desc, const data::Frame& frame, const FrameOrigin& origin, Diagnostics& diagnostics) {
+std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& context, Annotations& annotations, Diagnostics& diagnostics) {
+  const data::Frame& frame = context.frame;
   if (frame.count > most_rows) {
-    diagnostics.error(code::too_many_particles, origin.contents,
+    diagnostics.error(code::too_many_particles, context.contents,
                       fmt::format("the file has {} particles; a data set can have {}", frame.count, most_rows));
     return {};
   }
-  std::vector<double> radii = particle_radii(frame, desc.radius, origin, diagnostics);
-  ParticleColors colors = particle_colors(frame, desc.color, desc.generated.has_value(), origin, diagnostics);
-  const std::vector<Copies> groups = copies_of(frame, desc.assembly, origin.name, diagnostics);
+  std::vector<double> radii = particle_radii(context, desc.radius, diagnostics);
+  ParticleColors colors = particle_colors(context, desc.color, desc.generated.has_value(), diagnostics);
+  apply_opacity(context, desc.opacity, colors, diagnostics);
+  const std::vector<Copies> groups = copies_of(frame, desc.assembly, context.name, diagnostics);
+  const std::vector<glm::dmat4> replicas = replicas_of(desc, context, diagnostics);
   if (radii.size() != frame.count || diagnostics.has_errors()) return {};
   Skipped skipped;
-  const Drawable drawable = choose(frame, std::move(radii), std::move(colors.packed), skipped);
-  report(skipped, frame.count, origin, diagnostics);
+  const Drawable drawable = choose(context, std::move(radii), std::move(colors.packed), skipped);
+  report(skipped, context, diagnostics);
+  if (!context.rows.empty() && drawable.rows.empty() && frame.count > 0)
+    diagnostics.warning(code::selection_empty, desc.select->loc, fmt::format("the selection '{}' leaves none of {} particles", desc.select->value, frame.count));
+  if (colors.key && std::find(annotations.keys.begin(), annotations.keys.end(), *colors.key) == annotations.keys.end())
+    annotations.keys.push_back(std::move(*colors.key));
   std::vector<Batch> batches;
   for (const Copies& group : groups) {
     Batch batch;
-    batch.name = origin.name;
+    batch.name = context.name;
     batch.type = desc.type;
     batch.chunks = chunks_of(group.rows.empty() ? drawable : subset(drawable, group.rows));
-    for (const glm::dmat4& transform : group.transforms) batch.instances.push_back({desc.transform * transform});
+    batch.instances = instances_of(desc, replicas, group.transforms);
     batch.material = desc.material;
     batch.color = colors.constant;
     batch.alpha = desc.alpha;
@@ -177,37 +195,144 @@ std::vector<Batch> make_batches(const DataDesc& desc, const data::Frame& frame, 
   return batches;
 }
 
-} // namespace
+void annotate(const DataDesc& desc, const data::Frame& frame, Annotations& annotations, Diagnostics& diagnostics) {
+  const data::Column* position = frame.find("position");
+  if (annotations.length_unit.empty() && position) annotations.length_unit = position->unit;
+  if (annotations.time.empty() && frame.time) {
+    std::string unit;
+    for (const auto& [name, value] : frame.properties)
+      if (name == "time_unit") unit = " " + value;
+    annotations.time = fmt::format("t = {:.6g}{}", *frame.time, unit);
+  } else if (annotations.time.empty() && frame.step) {
+    annotations.time = fmt::format("step {}", *frame.step);
+  }
+  if (!desc.cell.drawn) return;
+  if (!frame.box) {
+    diagnostics.error(code::no_cell, desc.loc, fmt::format("{} has no cell to draw", desc.file.value.string()));
+    return;
+  }
+  const glm::dmat3 linear(desc.transform);
+  annotations.cells.push_back({glm::dvec3(desc.transform * glm::dvec4(frame.box->origin, 1.0)), linear * frame.box->edges, desc.cell.color, desc.cell.width});
+}
 
-Scene realize(const SceneDesc& desc, Size2d size, Diagnostics& diagnostics) {
-  Scene scene;
-  scene.background = desc.background;
-  scene.ambient = desc.ambient;
-  scene.lights = desc.lights;
-  std::map<std::filesystem::path, std::shared_ptr<const data::Frame>> frames; // a file that is shown twice is read once
-  for (const DataDesc& data : desc.data) {
-    std::shared_ptr<const data::Frame> frame;
-    FrameOrigin origin;
-    origin.name = data.generated ? desc.name : data.file.value.string();
-    origin.contents.file = origin.name;
-    if (data.generated) {
-      frame = generated_frame(*data.generated);
-    } else {
-      auto [entry, fresh] = frames.try_emplace(data.file.value);
-      if (fresh) entry->second = read_frame(data.file, diagnostics);
-      frame = entry->second;
+Bounds moved(const Bounds& bounds, const glm::dmat4& m) {
+  Bounds out;
+  for (int i = 0; i < 8 && !bounds.empty(); ++i)
+    out.add(glm::dvec3(m * glm::dvec4(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y, i & 4 ? bounds.max.z : bounds.min.z, 1.0)));
+  return out;
+}
+
+class Realizer {
+public:
+  Realizer(const SceneDesc& desc, SceneSource& source, std::optional<std::uint64_t> index, Diagnostics& diagnostics)
+      : desc_(desc), source_(source), index_(index), diagnostics_(diagnostics) {
+    Annotations& a = scene_.annotations;
+    a.place = desc.legend.place;
+    a.size = desc.legend.size;
+    a.length_unit = desc.legend.unit.value_or("");
+  }
+
+  Scene run(Size2d size) {
+    scene_.background = desc_.background;
+    scene_.ambient = desc_.ambient;
+    scene_.lights = desc_.lights;
+    for (std::size_t i = 0; i < desc_.data.size(); ++i) add(i);
+    Annotations& a = scene_.annotations;
+    if (!desc_.legend.shown) a.keys.clear();
+    // Bar and time go with a legend, the time with series only; either is there when it is asked for.
+    a.scale_bar = desc_.legend.scale_bar.value_or(!a.keys.empty());
+    if (!desc_.legend.time.value_or(index_ && !a.keys.empty())) a.time.clear();
+    scene_.camera = complete_camera(desc_.camera, scene_.bounds, size);
+    if (const std::string problem = check(scene_.camera); !problem.empty() && !diagnostics_.has_errors())
+      diagnostics_.error(code::scene_camera, desc_.camera.loc, "the camera cannot see: " + problem);
+    return std::move(scene_);
+  }
+
+private:
+  FrameContext context(std::size_t i, const data::Frame& frame) {
+    const DataDesc& data = desc_.data[i];
+    FrameContext out{.frame = frame};
+    out.name = data.generated ? desc_.name : data.file.value.string();
+    out.contents.file = out.name;
+    out.folder = desc_.folder;
+    if (!data.generated) out.rows = source_.selected(i, frame, diagnostics_);
+    else if (data.select) out.rows = select_rows(data.select->value, frame, data.select->loc, diagnostics_);
+    out.series = index_ ? source_.series(i, diagnostics_) : nullptr;
+    return out;
+  }
+
+  void add(std::size_t i) {
+    const DataDesc& data = desc_.data[i];
+    const std::shared_ptr<const data::Frame> frame = data.generated ? generated_frame(*data.generated) : source_.frame(i, index_, diagnostics_);
+    if (!frame) return;
+    FrameContext context = this->context(i, *frame);
+    if (data.select && context.rows.empty() && diagnostics_.has_errors()) return;
+    annotate(data, *frame, scene_.annotations, diagnostics_);
+    const bool over_series = context.series != nullptr;
+    if (over_series) {
+      add_series_bounds(i);
+      if (const auto& reach = source_.reach(i)) context.usual_radius = reach->radius;
     }
-    if (!frame) continue;
-    for (Batch& batch : make_batches(data, *frame, origin, diagnostics)) {
-      batch.id_base = scene.particle_count();
-      for (const Instance& instance : batch.instances) scene.bounds.add(world_bounds(*batch.chunks, instance.world_from_data));
-      scene.batches.push_back(std::move(batch));
+    for (Batch& batch : make_batches(data, context, scene_.annotations, diagnostics_)) {
+      batch.id_base = scene_.particle_count();
+      if (!over_series)
+        for (const Instance& instance : batch.instances) scene_.bounds.add(world_bounds(*batch.chunks, instance.world_from_data));
+      scene_.batches.push_back(std::move(batch));
     }
   }
-  scene.camera = complete_camera(desc.camera, scene.bounds, size);
-  if (const std::string problem = check(scene.camera); !problem.empty() && !diagnostics.has_errors())
-    diagnostics.error(code::scene_camera, desc.camera.loc, "the camera cannot see: " + problem);
-  return scene;
+
+  // The box of a whole series, the same in all its pictures: centers of some frames, radii and copies of frame 0.
+  void add_series_bounds(std::size_t i) {
+    const DataDesc& data = desc_.data[i];
+    std::optional<SceneSource::Reach>& reach = source_.reach(i);
+    const Bounds centers = source_.series_centers(i, diagnostics_);
+    if (!reach) {
+      const auto first = source_.frame(i, 0, diagnostics_);
+      if (!first) return;
+      const FrameContext context = this->context(i, *first);
+      reach.emplace();
+      Diagnostics ignored; // what is wrong is told for the frame that is drawn
+      for (const double r : particle_radii(context, data.radius, ignored))
+        if (r <= largest_coordinate) reach->radius = std::max(reach->radius, r);
+      for (const Copies& copies : copies_of(*first, data.assembly, context.name, ignored))
+        for (const Instance& instance : instances_of(data, replicas_of(data, context, ignored), copies.transforms))
+          reach->transforms.push_back(instance.world_from_data);
+    }
+    Bounds grown;
+    if (!centers.empty()) {
+      grown.add(centers.min, reach->radius);
+      grown.add(centers.max, reach->radius);
+    }
+    for (const glm::dmat4& m : reach->transforms) scene_.bounds.add(moved(grown, m));
+  }
+
+  const SceneDesc& desc_;
+  SceneSource& source_;
+  std::optional<std::uint64_t> index_;
+  Diagnostics& diagnostics_;
+  Scene scene_{};
+};
+
+} // namespace
+
+Scene realize(const SceneDesc& desc, Size2d size, SceneSource& source, std::optional<std::uint64_t> index, Diagnostics& diagnostics) {
+  return Realizer(desc, source, index, diagnostics).run(size);
+}
+
+Scene realize(const SceneDesc& desc, Size2d size, Diagnostics& diagnostics) {
+  SceneSource source(desc);
+  std::optional<std::uint64_t> index;
+  if (desc.frame) {
+    const std::uint64_t count = source.frame_count(diagnostics);
+    if (count == 0) return {};
+    try {
+      index = data::frame_index(desc.frame->value, count, desc.frame->loc);
+    } catch (const Failure& failure) {
+      diagnostics.add(failure.diagnostic());
+      return {};
+    }
+  }
+  return realize(desc, size, source, index, diagnostics);
 }
 
 } // namespace mote

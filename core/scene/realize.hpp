@@ -16,9 +16,14 @@
 
 namespace mote {
 
-// Reads frame 0 of every data set. Problems go to `diagnostics` (also those of the readers); with errors the scene is
+// Reads the frame of every data set that the scene names, or the first. Problems go to `diagnostics` (also those of the readers); with errors the scene is
 // incomplete and must not be drawn. `size` is that of the picture: an automatic camera depends on its shape.
 Scene realize(const SceneDesc& desc, Size2d size, Diagnostics& diagnostics);
+
+class SceneSource;
+// The same with files that are open already, at frame `index` of the series; nothing: each file's first frame, alone.
+// With an index, camera and ranges are those of the series.
+Scene realize(const SceneDesc& desc, Size2d size, SceneSource& source, std::optional<std::uint64_t> index, Diagnostics& diagnostics);
 
 // The camera of a scene whose data has these bounds: absent numbers are chosen so that all of it is in view.
 Camera complete_camera(const CameraDesc& desc, const Bounds& bounds, Size2d size);

@@ -16,6 +16,7 @@
 #pragma once
 
 #include "core/math/camera.hpp"
+#include "core/scene/annotations.hpp"
 #include "core/scene/chunks.hpp"
 
 #include <glm/glm.hpp>
@@ -75,6 +76,7 @@ struct Scene {
   std::vector<Light> lights{};
   std::vector<Batch> batches{};
   Bounds bounds{};               // of all instances, world
+  Annotations annotations{};     // what is written over the picture; no pass looks at it
   [[nodiscard]] std::uint64_t particle_count() const; // instances times rows, skipped ones included
 };
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// One [[data]] table of a scene file: file, type, radius, color, material, transform.
-#include "core/scene/colormaps.hpp"
+// One [[data]] table of a scene file: files, type, selection, style, cell, material, transform. Colors, radii and
+// opacities are in scene_mapping.cpp.
 #include "core/scene/scene_parser.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace mote::scene_parser {
 namespace {
@@ -14,89 +16,6 @@ using config::TableReader;
 
 const std::vector<std::string> particle_types{"sphere"};
 const std::vector<std::string> shading_models{"lambert", "phong", "blinn_phong"}; // order of ShadingModel
-const std::vector<std::string> radius_maps{"linear"};
-
-Located<std::string> located_text(TableReader& reader, std::string_view key) {
-  const Node* node = reader.find(key);
-  return {reader.text(key).value_or(""), node ? node->loc : reader.node().loc};
-}
-
-// "auto" or [low, high]; nothing means "auto".
-std::optional<std::pair<double, double>> read_range(TableReader& reader) {
-  const Node* node = reader.find("range");
-  if (!node || (node->kind == Kind::Text && node->text == "auto")) return std::nullopt;
-  if (node->kind == Kind::Text) {
-    reader.wrong_type(*node, "range", "\"auto\" or [low, high]");
-    return std::nullopt;
-  }
-  const auto ends = reader.numbers<2>("range");
-  if (!ends) return std::nullopt;
-  if ((*ends)[0] == (*ends)[1])
-    reader.diagnostics().error(code::scene_out_of_range, node->loc,
-                               fmt::format("{} is '{}': its ends must differ", reader.name_of("range"), config::to_text(*node)));
-  return std::pair{(*ends)[0], (*ends)[1]};
-}
-
-RadiusDesc read_radius_table(const Node& node, const std::string& path, Diagnostics& diagnostics) {
-  TableReader reader(node, path, reader_codes, diagnostics);
-  RadiusDesc radius{RadiusRule::Mapped, 0.0, {}, node.loc};
-  radius.mapping.attribute = located_text(reader, "attribute");
-  if (!reader.find("attribute")) reader.missing("attribute", "which column of the file gives the values");
-  if (reader.find("map")) (void)reader.word("map", radius_maps);
-  radius.mapping.map.value = "linear";
-  radius.mapping.range = read_range(reader);
-  const auto to = reader.numbers<2>("to", config::not_negative);
-  if (!reader.find("to")) reader.missing("to", "the radii at both ends of the range, to = [0.2, 0.6]");
-  if (to) radius.mapping.to = {(*to)[0], (*to)[1]};
-  reader.finish();
-  return radius;
-}
-
-RadiusDesc read_radius(TableReader& reader) {
-  const Node* node = reader.find("radius");
-  if (!node) return {};
-  if (node->kind == Kind::Text) {
-    RadiusDesc radius{RadiusRule::Attribute, 0.0, {}, node->loc};
-    radius.mapping.attribute = {node->text, node->loc};
-    return radius;
-  }
-  if (node->kind == Kind::Table) return read_radius_table(*node, reader.name_of("radius"), reader.diagnostics());
-  if (node->kind != Kind::Integer && node->kind != Kind::Real) {
-    reader.wrong_type(*node, "radius", "a number, an attribute's name, or { attribute, map, range, to }");
-    return {};
-  }
-  const auto number = reader.as_number(*node, "radius", config::positive);
-  return number ? RadiusDesc{RadiusRule::Constant, *number, {}, node->loc} : RadiusDesc{};
-}
-
-ColorDesc read_color_table(const Node& node, const std::string& path, Diagnostics& diagnostics) {
-  TableReader reader(node, path, reader_codes, diagnostics);
-  ColorDesc color{ColorRule::Mapped, glm::dvec3(0), {}, node.loc};
-  color.mapping.attribute = located_text(reader, "attribute");
-  if (!reader.find("attribute")) reader.missing("attribute", "which column of the file gives the values");
-  color.mapping.map = located_text(reader, "map");
-  if (color.mapping.map.value.empty()) color.mapping.map.value = "viridis";
-  ColorMap map;
-  if (!find_color_map(color.mapping.map.value, map)) {
-    const std::vector<std::string> names = color_map_names();
-    diagnostics.error(code::scene_unknown_word, color.mapping.map.loc,
-                      fmt::format("there is no color map '{}'", color.mapping.map.value),
-                      {did_you_mean(color.mapping.map.value, names),
-                       fmt::format("Color maps: {}; with _r behind the name reversed", list_of(names))});
-  }
-  color.mapping.range = read_range(reader);
-  reader.finish();
-  return color;
-}
-
-ColorDesc read_particle_color(TableReader& reader, bool linear) {
-  const Node* node = reader.find("color");
-  if (!node) return {};
-  if (node->kind == Kind::Table) return read_color_table(*node, reader.name_of("color"), reader.diagnostics());
-  if (node->kind == Kind::Text && node->text == "element") return {ColorRule::Element, glm::dvec3(0), {}, node->loc};
-  const auto constant = as_color(reader, *node, "color", linear);
-  return constant ? ColorDesc{ColorRule::Constant, glm::dvec3(*constant), {}, node->loc} : ColorDesc{};
-}
 
 Material read_material(TableReader& outer) {
   Material material;
@@ -115,17 +34,87 @@ Material read_material(TableReader& outer) {
   return material;
 }
 
+// A file name or a list of them; relative ones are relative to `folder`. Empty after an error.
+std::vector<std::filesystem::path> read_files(TableReader& reader, std::string_view key, const std::filesystem::path& folder) {
+  const Node* node = reader.find(key);
+  if (!node) return {};
+  std::vector<const Node*> items{node};
+  if (node->kind == Kind::Array) {
+    items.clear();
+    for (const Node& item : node->items) items.push_back(&item);
+  }
+  std::vector<std::filesystem::path> files;
+  for (const Node* item : items) {
+    if (item->kind != Kind::Text) {
+      reader.wrong_type(*item, key, "a file name, or a list of file names");
+      return {};
+    }
+    if (item->text.empty()) {
+      reader.diagnostics().error(code::scene_out_of_range, item->loc, reader.name_of(key) + " is empty");
+      return {};
+    }
+    const std::filesystem::path path(item->text);
+    files.push_back(path.is_absolute() || folder.empty() ? path : folder / path);
+  }
+  if (files.empty()) reader.diagnostics().error(code::scene_out_of_range, node->loc, reader.name_of(key) + " is empty");
+  return files;
+}
+
 void read_file(TableReader& reader, const std::filesystem::path& folder, DataDesc& data) {
   const Node* node = reader.find("file");
-  const auto text = reader.text("file");
   if (!node) reader.missing("file", "a particle file, relative to the scene file");
-  if (!text) return;
-  if (text->empty()) {
-    reader.diagnostics().error(code::scene_out_of_range, node->loc, reader.name_of("file") + " is empty");
+  const std::vector<std::filesystem::path> files = read_files(reader, "file", folder);
+  data.trajectory = read_files(reader, "trajectory", folder);
+  if (files.empty()) return;
+  data.file = {files[0], node->loc};
+  data.further.assign(files.begin() + 1, files.end());
+}
+
+const std::vector<std::string> styles{"spacefill", "ball_and_stick", "licorice"}; // order of MoleculeStyle, behind None
+
+void read_style(TableReader& reader, DataDesc& data) {
+  const auto style = reader.word("style", styles);
+  if (!style) return;
+  data.style = static_cast<MoleculeStyle>(*style + 1);
+  if (data.style != MoleculeStyle::Spacefill)
+    reader.diagnostics().error(code::needs_cylinders, reader.find("style")->loc,
+                               fmt::format("{} is '{}': bonds are drawn as cylinders, which this version does not have", reader.name_of("style"), styles[*style]),
+                               {"style = \"spacefill\" draws atoms as spheres of their van der Waals radii"});
+  if (data.radius.rule == RadiusRule::Auto) data.radius = {RadiusRule::Element, 0.0, {}, reader.find("style")->loc};
+  if (data.color.rule == ColorRule::Auto) data.color = {ColorRule::Element, glm::dvec3(0), {}, reader.find("style")->loc};
+}
+
+// cell = true, or { color = "#404040", width = 2 }
+void read_cell(TableReader& outer, bool linear, DataDesc& data) {
+  const Node* node = outer.find("cell");
+  if (!node) return;
+  if (node->kind == Kind::Boolean) {
+    data.cell.drawn = node->boolean;
     return;
   }
-  const std::filesystem::path path(*text);
-  data.file = {path.is_absolute() ? path : folder / path, node->loc};
+  if (node->kind != Kind::Table) {
+    outer.wrong_type(*node, "cell", "true, false, or { color, width }");
+    return;
+  }
+  TableReader reader(*node, outer.name_of("cell"), reader_codes, outer.diagnostics());
+  data.cell.drawn = true;
+  if (const auto color = read_color(reader, "color", linear)) data.cell.color = glm::dvec3(*color);
+  data.cell.width = reader.number("width", config::positive).value_or(0.0);
+  reader.finish();
+}
+
+const std::vector<std::string> wrappings{"wrap", "unwrap"};
+
+void read_periodicity(TableReader& reader, DataDesc& data) {
+  if (const auto word = reader.word("periodic", wrappings)) data.wrapping = *word == 0 ? Wrapping::Wrap : Wrapping::Unwrap;
+  const auto counts = reader.numbers<3>("replicas", {1.0, 1000.0});
+  if (!counts) return;
+  for (int k = 0; k < 3; ++k) {
+    const double n = (*counts)[static_cast<std::size_t>(k)];
+    if (n != std::floor(n))
+      reader.diagnostics().error(code::scene_out_of_range, reader.find("replicas")->loc, reader.name_of("replicas") + " takes three whole numbers");
+    data.replicas[k] = static_cast<int>(n);
+  }
 }
 
 } // namespace
@@ -140,7 +129,11 @@ DataDesc read_data(const Node& table, std::size_t index, const std::filesystem::
   const bool linear = read_color_space(reader, inherited_linear);
   data.radius = read_radius(reader);
   data.color = read_particle_color(reader, linear);
-  data.alpha = reader.number("alpha", config::unit).value_or(1.0);
+  data.opacity = read_opacity(reader, data.alpha);
+  if (const auto select = reader.text("select")) data.select = Located<std::string>{*select, reader.find("select")->loc};
+  read_style(reader, data);
+  read_periodicity(reader, data);
+  read_cell(reader, linear, data);
   data.material = read_material(reader);
   data.transform = read_transform(reader, "transform");
   if (const auto assembly = reader.text("assembly")) data.assembly = Located<std::string>{*assembly, reader.find("assembly")->loc};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/scene_file.hpp"
 
+#include "core/data/series.hpp"
 #include "core/scene/scene_parser.hpp"
 
 #include <fmt/format.h>
@@ -110,6 +111,8 @@ SceneDesc read_tree(const Node& root, const std::string& name, const std::filesy
   }
   scene.ambient = read_ambient(top, linear);
   scene.lights = read_lights(top.tables("light"), linear, diagnostics);
+  if (const auto frame = top.integer("frame")) scene.frame = Located<std::int64_t>{*frame, top.find("frame")->loc};
+  scene.legend = read_legend(top);
   const std::vector<const Node*> data = top.tables("data");
   for (std::size_t i = 0; i < data.size(); ++i) scene.data.push_back(read_data(*data[i], i, folder, linear, diagnostics));
   if (!top.find("data")) diagnostics.error(code::scene_missing_key, {name}, "the scene has no [[data]]: there is nothing to draw");
@@ -147,7 +150,15 @@ SceneDesc scene_of_files(std::span<const std::string> files, std::span<const std
   std::string name;
   for (const std::string& file : files) {
     // The place is the file itself: messages about it read "spheres.npy: error ...".
-    list.items.push_back(config::table_node({{"file", config::text_node(file, {file})}}, {file}));
+    Node* last = list.items.empty() ? nullptr : &list.items.back();
+    const bool moves = last && data::is_trajectory_name(file) && !data::is_trajectory_name(last->find("file")->text);
+    if (!moves) { // a data set of its own
+      list.items.push_back(config::table_node({{"file", config::text_node(file, {file})}}, {file}));
+    } else if (Node* trajectory = last->find("trajectory")) {
+      trajectory->items.push_back(config::text_node(file, {file}));
+    } else {
+      last->set("trajectory", config::array_node({config::text_node(file, {file})}, {file}));
+    }
     name += (name.empty() ? "" : " ") + file;
   }
   root.set("data", std::move(list));

@@ -12,6 +12,7 @@
 #include "core/math/camera.hpp"
 #include "core/scene/generated.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/value_range.hpp"
 #include "core/toml/node.hpp"
 
 #include <array>
@@ -30,15 +31,21 @@ template <class T> struct Located {
   SourceLoc loc{};
 };
 
-// An attribute of a file turned into a number in [0,1] by `range`, then into a color or a radius.
+// An attribute of a file turned into a number in [0,1] by range and scale, then into a color, a radius or an opacity.
 struct Mapping {
   Located<std::string> attribute{};
-  Located<std::string> map{};                            // color map name, or "linear" for a radius
-  std::optional<std::pair<double, double>> range{};      // absent: "auto", least to largest finite value of the frame
-  std::pair<double, double> to{0.0, 1.0};                // radius only
+  Located<std::string> map{};                            // color maps: a name, or a file when it has a '/' or '.'
+  RangeRule rule{RangeRule::Series};
+  std::optional<std::pair<double, double>> range{};      // Fixed: ends; Percentile: percents
+  bool logarithmic{};
+  std::pair<double, double> to{0.0, 1.0};                // radius and opacity: at the ends of the range
+  // colors only, 0xRRGGBB sRGB-encoded
+  std::optional<std::uint32_t> below{}, above{}, nan{};  // absent: the ends of the map; magenta
+  std::vector<std::pair<std::string, std::uint32_t>> categories{}; // colors of words or whole numbers
+  std::optional<std::string> title{}, unit{};            // of the legend; absent: the attribute's
 };
 
-enum class RadiusRule : std::uint8_t { Auto, Constant, Attribute, Mapped };
+enum class RadiusRule : std::uint8_t { Auto, Constant, Attribute, Mapped, Element };
 struct RadiusDesc {
   RadiusRule rule{RadiusRule::Auto};
   double constant{};
@@ -46,7 +53,7 @@ struct RadiusDesc {
   SourceLoc loc{};
 };
 
-enum class ColorRule : std::uint8_t { Auto, Constant, Element, Mapped };
+enum class ColorRule : std::uint8_t { Auto, Constant, Element, Type, Mapped };
 struct ColorDesc {
   ColorRule rule{ColorRule::Auto};
   glm::dvec3 constant{0}; // working space
@@ -54,14 +61,40 @@ struct ColorDesc {
   SourceLoc loc{};
 };
 
+// The opacity of each particle: one for all, the values of an attribute, or values mapped by range and `to`.
+enum class AlphaRule : std::uint8_t { Constant, Attribute, Mapped };
+struct AlphaDesc {
+  AlphaRule rule{AlphaRule::Constant};
+  Mapping mapping{};
+  SourceLoc loc{};
+};
+
+enum class Wrapping : std::uint8_t { AsInFile, Wrap, Unwrap };
+// How molecules are shown. The last two need cylinders.
+enum class MoleculeStyle : std::uint8_t { None, Spacefill, BallAndStick, Licorice };
+
+struct CellDesc { // of the periodic cell
+  bool drawn{};
+  glm::dvec3 color{0.25}; // working space
+  double width{};         // pixels; 0: fits the picture
+};
+
 struct DataDesc {
-  Located<std::filesystem::path> file{};     // relative paths are resolved; empty for generated spheres
+  Located<std::filesystem::path> file{};     // a file or a pattern; relative paths are resolved; empty for generated spheres
+  std::vector<std::filesystem::path> further{};    // more files of the same series
+  std::vector<std::filesystem::path> trajectory{}; // files or patterns that move the particles of `file`
+  std::optional<Located<std::string>> select{};    // expression: which particles are drawn
   std::optional<GeneratedName> generated{};
   std::string type{"sphere"};
   RadiusDesc radius{};
   ColorDesc color{};
   double alpha{1.0};
+  AlphaDesc opacity{};                       // Constant: `alpha`
   Material material{};
+  MoleculeStyle style{MoleculeStyle::None};
+  Wrapping wrapping{Wrapping::AsInFile};
+  glm::ivec3 replicas{1};                    // along the edges of the cell
+  CellDesc cell{};
   glm::dmat4 transform{1.0};
   std::optional<Located<std::string>> assembly{}; // a name, or "none"; absent: the file's first
   SourceLoc loc{};
@@ -75,6 +108,14 @@ struct CameraDesc {
   SourceLoc loc{};
 };
 
+struct LegendDesc {
+  bool shown{true};
+  std::optional<bool> scale_bar{}, time{}; // absent: where it makes sense
+  LegendPlace place{LegendPlace::Right};
+  double size{1.0};
+  std::optional<std::string> unit{};       // of lengths, for the scale bar
+};
+
 struct SceneDesc {
   std::string name{};                         // the file, or the words that named the data
   std::optional<Located<std::string>> graph{}; // a shipped name or a path, as written
@@ -85,6 +126,8 @@ struct SceneDesc {
   glm::dvec3 ambient{0.2};                    // color * intensity, working space
   std::vector<Light> lights{};
   std::vector<DataDesc> data{};
+  std::optional<Located<std::int64_t>> frame{}; // of every series; negative: from the end; absent: the first, alone
+  LegendDesc legend{};
 };
 
 // Does the file look like a scene (TOML whose top has data, camera, ...) rather than a particle file? Decides by

@@ -20,6 +20,14 @@ std::optional<glm::dvec4> read_color(config::TableReader& reader, std::string_vi
 std::optional<glm::dvec4> as_color(config::TableReader& reader, const config::Node& node, std::string_view key, bool linear,
                                    bool alpha_allowed = false);
 
+// "#rrggbb" and the like as 0xRRGGBB, sRGB-encoded whatever `color_space` says; alpha is refused.
+std::optional<std::uint32_t> read_encoded_color(config::TableReader& reader, std::string_view key);
+
+RadiusDesc read_radius(config::TableReader& reader);
+ColorDesc read_particle_color(config::TableReader& reader, bool linear);
+// A number goes to `alpha`, everything else into the answer.
+AlphaDesc read_opacity(config::TableReader& reader, double& alpha);
+LegendDesc read_legend(config::TableReader& top);
 CameraDesc read_camera(const config::Node& table, Diagnostics& diagnostics);
 std::vector<Light> read_lights(std::span<const config::Node* const> tables, bool linear, Diagnostics& diagnostics);
 DataDesc read_data(const config::Node& table, std::size_t index, const std::filesystem::path& folder, bool linear,

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Files to start from, by format: those of the tests, and binary samples made in memory.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mote::fuzz {
+
+struct Input {
+  std::string name{}, extension{}, content{};
+};
+
+// Small files under tests/ and the samples, by the format that reads them; larger ones than `most` bytes are left out.
+std::map<std::string, std::vector<Input>> inputs_by_format(std::size_t most = 40000);
+
+} // namespace mote::fuzz
