@@ -166,7 +166,7 @@ void run(const InfoArguments& a) {
   }
   Json all = Json::array();
   for (const FileInfo& file : files) all.push_back(json_of(file));
-  fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));
+  fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2, ' ', false, Json::error_handler_t::replace)); // names need not be UTF-8
 }
 
 } // namespace

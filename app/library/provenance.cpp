@@ -43,6 +43,20 @@ std::string scene_text(const SceneDesc& desc) {
   return text.size() <= longest_scene ? text : std::string{};
 }
 
+// Bytes that are no UTF-8 become '?': file names may be anything, the texts of a PNG may not.
+std::string as_utf8(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    const std::size_t length = first < 0x80 ? 1 : first >= 0xC2 && first < 0xE0 ? 2 : first >= 0xE0 && first < 0xF0 ? 3 : first >= 0xF0 && first < 0xF5 ? 4 : 0;
+    bool whole = length > 0 && i + length <= text.size();
+    for (std::size_t k = 1; whole && k < length; ++k) whole = (static_cast<unsigned char>(text[i + k]) & 0xC0u) == 0x80u;
+    out += whole ? text.substr(i, length) : "?";
+    i += whole ? length : 1;
+  }
+  return out;
+}
+
 } // namespace
 
 std::string quoted(const std::string& word) {
@@ -65,6 +79,7 @@ Provenance provenance_of(const Job& job, const std::string& version, const std::
                {"View transform", display}};
   if (job.frame) p.emplace_back("Frame", fmt::format("{}", *job.frame));
   if (std::string scene = scene_text(job.desc); !scene.empty()) p.emplace_back("Scene", std::move(scene));
+  for (auto& [key, value] : p) value = as_utf8(value);
   return p;
 }
 

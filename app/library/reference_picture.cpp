@@ -33,7 +33,7 @@ DrawnPicture draw_reference(const Job& job, const ColorConfig& config, const Dis
     picture.rgba8.resize(picture.display.size());
     std::transform(picture.display.begin(), picture.display.end(), picture.rgba8.begin(), [](float v) { return to_8bit(v); });
   }
-  if (wanted(Aov::Depth)) picture.depth.assign(traced.depth.begin(), traced.depth.end());
+  if (wanted(Aov::Depth) || job.graph.depth_if_made) picture.depth.assign(traced.depth.begin(), traced.depth.end());
   if (wanted(Aov::Id)) picture.id = traced.id;
   if (wanted(Aov::Normal))
     for (const glm::dvec3& n : traced.normal)

@@ -135,6 +135,23 @@ TEST_F(Batch, LegendsAreOnPicturesAndNotInAovs) {
   EXPECT_EQ(equal.exit, 0) << equal.out << equal.err;
 }
 
+// What users' files and shells do: names that are no UTF-8, pipes, frames that differ, another locale.
+TEST_F(Batch, OddInputIsReadOrRefusedWithWords) {
+  write("b\xe4r_1.csv", "x,y,z,gr\xf6\xdf" "e\n0,0,0,1\n1,0,0,2\n");
+  EXPECT_EQ(mote("render b*_1.csv -o name.png --size 32x18").exit, 0);
+  const Ran info = mote("info b*_1.csv --json", "LC_ALL=de_DE.UTF-8");
+  EXPECT_EQ(info.exit, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("\"max\": 2.0"));
+  EXPECT_EQ(shell("cat t.xyz | \"$MOTE\" render - --frame 2 -o pipe.png --size 32x18").exit, 0);
+  ASSERT_EQ(mote("render t.xyz --frame 2 -o file.png --size 32x18").exit, 0);
+  EXPECT_EQ(pixels("pipe.png"), pixels("file.png"));
+  write("grow.xyz", "1\n\nO 0 0 0\n3\n\nO 0 0 0\nO 1 0 0\nO 2 0 0\n");
+  EXPECT_EQ(mote("render grow.xyz --frames : -o grow_%d.png --size 32x18").exit, 0);
+  EXPECT_NE(pixels("grow_0.png"), pixels("grow_1.png"));
+  write("lie.xyz", "9223372036854775808\n\nO 0 0 0\n");
+  EXPECT_EQ(mote("render lie.xyz -o no.png").exit, 3);
+}
+
 TEST_F(Batch, TopologyAndTrajectory) {
   if (!std::filesystem::exists(std::filesystem::path(MOTE_SOURCE_DIR).parent_path() / "shared/data/md/md.xtc")) GTEST_SKIP() << "NOT TESTED: the reference pack is missing";
   const std::string pack = (std::filesystem::path(MOTE_SOURCE_DIR).parent_path() / "shared/data/md/").string();
