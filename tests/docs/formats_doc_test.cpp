@@ -39,7 +39,9 @@ TEST(FormatsDoc, HasARowForEveryFormat) {
 TEST(FormatsDoc, NamesTheFormatsThatNeedATopology) {
   const std::string document = read("formats.md");
   for (const mote::data::Format& format : mote::data::formats())
-    if (format.positions_only) EXPECT_THAT(document, HasSubstr("`" + std::string(format.name) + "`"));
+    if (format.positions_only) {
+      EXPECT_THAT(document, HasSubstr("`" + std::string(format.name) + "`"));
+    }
 }
 
 TEST(ScenesDoc, NamesEveryColorMap) {

@@ -58,7 +58,7 @@ std::string outcome(const std::string& content, const std::string& extension, st
   return "read";
 }
 
-int fuzz(const std::string& format, double seconds, std::uint64_t seed) {
+int fuzz_format(const std::string& format, double seconds, std::uint64_t seed) {
   const auto inputs = fuzz::inputs_by_format();
   const auto found = inputs.find(format);
   if (found == inputs.end()) {
@@ -99,5 +99,5 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "fuzz_readers FORMAT SECONDS [SEED]\n");
     return 2;
   }
-  return fuzz(argv[1], std::atof(argv[2]), argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
+  return fuzz_format(argv[1], std::atof(argv[2]), argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
 }

@@ -37,7 +37,7 @@ std::map<std::string, std::vector<Input>> inputs_by_format(std::size_t most) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(MOTE_SOURCE_DIR) / folder)) {
       if (!entry.is_regular_file() || entry.file_size() > most) continue;
       std::ifstream file(entry.path(), std::ios::binary);
-      all.push_back({entry.path().filename().string(), extension_of(entry.path()), {std::istreambuf_iterator<char>(file), {}}});
+      all.push_back({entry.path().filename().string(), extension_of(entry.path()), std::string(std::istreambuf_iterator<char>(file), {})});
     }
   using namespace data::test;
   for (const std::uint64_t atoms : {3u, 12u}) all.push_back({"made.xtc", "xtc", make_xtc(2, atoms)});
