@@ -8,7 +8,9 @@ namespace mote::data {
 namespace {
 
 TEST(WithoutHdf5, SaysWhatIsMissing) {
-  const Diagnostic d = test::failure_of_text(std::string("\x89HDF\r\n\x1a\n", 8) + std::string(100, '\0'), "h5");
+  std::string file("\x89HDF\r\n\x1a\n", 8);
+  file.append(100, '\0');
+  const Diagnostic d = test::failure_of_text(file, "h5");
   EXPECT_EQ(d.code, "D042");
   EXPECT_THAT(to_string(d), testing::HasSubstr("-DMOTE_HDF5=ON"));
 }

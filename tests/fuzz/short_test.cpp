@@ -30,6 +30,7 @@ TEST_P(OfFormat, CutAtEveryByte) {
   for (const Input& input : found->second) {
     std::uint64_t whole = 0;
     ASSERT_EQ(data::test::survives(input.content, input.extension, &whole), "") << input.name;
+    if (whole == 0) continue; // a file that is refused as a whole may be valid up to its flaw
     const std::size_t step = 1 + input.content.size() / 3000;
     for (std::size_t length = 0; length < input.content.size(); length += step) {
       std::uint64_t frames = 0;

@@ -109,7 +109,7 @@ protected:
 
 TEST_F(Samples, ErrorsOfThePatternsOnEdges) {
   const Scene scene = discs();
-  const auto area = render_reference_area(reference::build_world(scene), view(scene), 10);
+  const auto area = render_reference_area(reference::build_world(scene), view(scene), 16);
   const auto error = [&](const std::string& samples) { return edge_error(draw(scene, view(scene), {}, {"opaque.samples=" + samples}), area); };
   EXPECT_GT(error("1"), 0.2);
   EXPECT_LE(error("{ pattern = \"jittered\", n = 16 }"), 0.045);
