@@ -25,9 +25,15 @@ std::span<const std::string_view> expansion_names(); // "auto", "vertex", "geome
 // False when `name` is none of them.
 bool parse_expansion(std::string_view name, Expansion& out);
 
+struct DeviceCosts;     // passes/particles/expansion_cost.hpp
+struct ExpansionReport; // passes/particles/expansion_choice.hpp
+
 struct FrameOptions {
   Expansion expansion{Expansion::Auto};
   bool show_depth_violation{}; // tests: fragments whose depth breaks the conservative bound are magenta (FC-29)
+  double frames{1};            // that are expected to be drawn like this one: one-time costs count by their share
+  const DeviceCosts* costs{};  // what `auto` reckons with; null: the numbers shipped for a processor
+  std::function<void(const ExpansionReport&)> chosen{}; // told by each pass that draws particles, each frame
 };
 
 // Optional in a FrameInput: who hears what goes wrong without stopping a frame (a shader file that was changed and is broken).

@@ -3,6 +3,7 @@
 
 #include "core/base/diagnostic.hpp"
 #include "core/gpu/points.hpp"
+#include "passes/particles/expansion_choice.hpp"
 #include "passes/particles/frame_uniform.hpp"
 #include "passes/particles/particle_store.hpp"
 #include "passes/particles/pipelines.hpp"
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -89,12 +91,14 @@ public:
     if (!pipelines_) make_frame_group(device, store);
     const FrameBlock block = frame_block(scene, view);
     device.queue().write_buffer(frame_buffer_, 0, std::as_bytes(std::span(&block, 1)));
-    const Expansion expansion = choose_expansion(context.frame().get<FrameOptions>().expansion, device, scene);
-    if (expansion == Expansion::Compute || expansion == Expansion::Point) check_states(expansion);
-    if (expansion == Expansion::Compute) check_tiles(scene);
+    choose(context);
+    const Expansion expansion = report_.choice.expansion;
     const double largest_point = expansion == Expansion::Point ? double{gpu::max_point_size(device)} : 0.0;
     const bool tiled = expansion == Expansion::Compute && record_tiles(context, store);
     if (!tiled) placed_ = store.place(scene, view, 0, largest_point);
+    report_.tiled = tiled ? tiled_.chunks.size() : 0;
+    report_.rastered = (tiled ? tiled_.rest : placed_).chunks_placed;
+    if (const auto& chosen = context.frame().get<FrameOptions>().chosen) chosen(report_);
     if (tiled && tiled_.rest.draws.empty()) return;
     raster_ = expansion == Expansion::Geometry ? expansion : Expansion::Vertex;
     reserve_indices(device, tiled ? tiled_.rest : placed_);
@@ -105,6 +109,11 @@ public:
     gpu::RenderPass pass = context.begin_attachments(tiled);
     draw_particles(context, pass, tiled ? tiled_.rest : placed_, {frame_group_, targets_, aovs_}, nullptr);
     pass.end();
+  }
+
+  void report(Diagnostics& out) override {
+    if (!lacks_tiles_.empty())
+      out.warning("P020", {}, fmt::format("the device has {}: particles are drawn by the {} expansion, not by tiles", lacks_tiles_, to_string(report_.choice.expansion)));
   }
 
 private:
@@ -118,10 +127,7 @@ private:
     if (tiled_.chunks.empty()) return false;
     tiles_->update(tiled_, view.size.width, view.size.height);
     bool mixed = false;
-    ParticlePipelineKey key = key_for_all(scene, view, mixed);
-    if (mixed)
-      fail(Exit::Failed, "P001", {}, "expansion 'compute' draws with one specular model a pass; this scene has Phong and Blinn-Phong materials",
-           {"--expansion vertex or geometry can"});
+    ParticlePipelineKey key = key_for_all(scene, view, mixed); // never mixed: why_not() has looked
     key.aovs = aovs_;
     const bool draw_on = !tiled_.rest.draws.empty();
     TileTargets targets{.color = context.whole_texture("color"),
@@ -286,37 +292,17 @@ private:
     }
   }
 
-  // Auto is the vertex expansion: it works everywhere and was never slower. What is asked for and cannot be is P001.
-  Expansion choose_expansion(Expansion wanted, const gpu::Device& device, const Scene& scene) const {
-    const Expansion expansion = wanted == Expansion::Auto ? Expansion::Vertex : wanted;
-    if (expansion == Expansion::Geometry && !gpu::has(device.features(), gpu::Feature::GeometryShader))
-      fail(Exit::Failed, "P001", {}, "the device has no geometry stage, so expansion 'geometry' cannot be used", {"expansions that work here: vertex"});
-    if (expansion == Expansion::Point && gpu::max_point_size(device) < 8.0f)
-      fail(Exit::Failed, "P001", {}, "the device has no large points, so expansion 'point' cannot be used", hints());
-    for (const Batch& batch : scene.batches) {
-      const ParticleType* type = find_particle_type(batch.type);
-      if (selection_.draws(batch) && (!type || !supports(*type, expansion, Phase::Opaque)))
-        fail(Exit::Failed, "P001", {}, fmt::format("particle type '{}' cannot be drawn by expansion '{}'", batch.type, to_string(expansion)),
-             {"mote graph --kinds prints what works together"});
-    }
+  void choose(rg::PassContext& context) {
+    const Scene& scene = context.frame().get<Scene>();
+    const FrameOptions& options = context.frame().get<FrameOptions>();
     if (scene.lights.size() > max_lights)
       fail(Exit::Failed, "P003", {}, fmt::format("the scene has {} lights; a frame holds {}", scene.lights.size(), max_lights));
-    return expansion;
-  }
-
-  // What tiles and sprites cannot do (their particles are drawn in no order), and is not done otherwise unasked: P001.
-  void check_states(Expansion expansion) const {
-    const DrawStates tested{.cull = expansion == Expansion::Compute ? Cull::None : states_.cull};
-    if (states_ != tested)
-      fail(Exit::Failed, "P001", {}, fmt::format("expansion '{}' draws with the default depth_test, depth_write, blend and cull only", to_string(expansion)), hints());
-  }
-  static std::vector<std::string> hints() { return {"--expansion vertex or geometry can"}; }
-  void check_tiles(const Scene& scene) const {
-    if (deferred_ || analytic_edges_ || offsets_.size() > 1)
-      fail(Exit::Failed, "P001", {}, fmt::format("expansion 'compute' cannot draw with {}", deferred_ ? "shadow maps" : analytic_edges_ ? "analytic edges" : "several samples a pixel"), hints());
-    for (const Batch& batch : scene.batches)
-      if (selection_.opacity == Opacity::Opaque && selection_.draws(batch) && has_own_alpha(batch))
-        fail(Exit::Failed, "P001", {}, fmt::format("expansion 'compute' cannot tell the opaque particles of '{}' from its transparent ones", batch.name), hints());
+    const gpu::Device device = context.device();
+    const ExpansionNeeds needs{device, scene, context.frame().get<View>(), selection_, states_, context.format("color"),
+                               static_cast<std::uint32_t>(std::popcount(aovs_)),
+                               deferred_ ? "shadow maps" : analytic_edges_ ? "analytic edges" : offsets_.size() > 1 ? "several samples a pixel" : ""};
+    report_ = {.kind = "opaque_impostors", .choice = choose_expansion(needs, options, chooser_), .automatic = options.expansion == Expansion::Auto};
+    lacks_tiles_ = report_.automatic ? device_lacks_tiles(device) : std::string();
   }
 
   void make_frame_group(gpu::Device& device, const ParticleStore& store) {
@@ -353,6 +339,9 @@ private:
   std::vector<glm::dvec2> offsets_; // samples in a pixel; one: its center
   std::vector<std::pair<gpu::Buffer, gpu::BindGroup>> sample_frames_;
   std::unique_ptr<Accumulator> accumulator_;
+  ExpansionChooser chooser_;
+  ExpansionReport report_; // of the last frame
+  std::string lacks_tiles_;
 };
 
 } // namespace

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // mote bench: how long frames take. A frame is recorded, submitted and waited for, with the display pass
-// and without reading it back; the camera turns half a degree about the vertical each frame. The first
-// frame (which makes pipelines) and two more are not in the statistics.
+// and without reading it back; the camera turns half a degree about the vertical each frame (--turn), or cuts to
+// another side (--cut). The first frame (which makes pipelines) and two more are not in the statistics.
 #include "app/codes.hpp"
 #include "app/commands/command.hpp"
+#include "app/library/calibrate.hpp"
 #include "core/scene/generated.hpp"
 
 #include <fmt/format.h>
@@ -22,15 +23,9 @@ struct BenchArguments {
   SceneArguments scene{};
   DeviceArguments device{};
   int frames{20};
-  bool json{}, stages{};
+  double turn{degrees_per_frame};
+  bool json{}, stages{}, cut{};
 };
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 struct PassTimes {
   std::string name{};
@@ -44,11 +39,14 @@ struct Measured {
   std::vector<PassTimes> passes{};
 };
 
-Measured measure(FrameRenderer& renderer, const Job& job, int frames) {
+// A cut looks from the other side: nothing that was seen in the frame before is.
+constexpr double degrees_of_a_cut = 90.0;
+
+Measured measure(FrameRenderer& renderer, const Job& job, const BenchArguments& a) {
   using Clock = std::chrono::steady_clock;
   Measured out;
-  for (int k = 0; k < warm_up + frames; ++k) {
-    const View view = job.view_of(turned(job.scene.camera, degrees_per_frame * k));
+  for (int k = 0; k < warm_up + a.frames; ++k) {
+    const View view = job.view_of(turned(job.scene.camera, (a.turn + (a.cut ? degrees_of_a_cut : 0.0)) * k));
     const Clock::time_point start = Clock::now();
     renderer.wait(renderer.draw(view));
     const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -117,10 +115,10 @@ void run(const BenchArguments& a) {
   print_and_stop_on_errors(diagnostics);
   const ColorConfig config = ColorConfig::load(a.device.display.config);
   DrawingDevice device(a.device.device);
-  FrameRenderer renderer(device, std::move(*graph), config, a.device.display, expansion);
+  FrameRenderer renderer(device, std::move(*graph), config, a.device.display, expansion, warm_up + a.frames);
   renderer.set_stage_times(a.stages);
   renderer.set_scene(job.scene);
-  const Measured measured = measure(renderer, job, a.frames);
+  const Measured measured = measure(renderer, job, a);
   print(renderer.report());
   const std::string_view used = passes::to_string(renderer.expansion());
   (a.json ? print_json : print_text)(measured, device.info().name, used, job.scene.particle_count());
@@ -134,6 +132,8 @@ void add_bench(CLI::App& app, Exit& exit) {
   add_scene_arguments(*command, a->scene);
   add_device_arguments(*command, a->device);
   command->add_option("--frames", a->frames, "frames in the statistics; three more warm up")->check(CLI::Range(1, 100000))->type_name("N");
+  command->add_option("--turn", a->turn, "degrees that the camera turns about the vertical a frame; 0.5 if not given")->type_name("DEGREES");
+  command->add_flag("--cut", a->cut, "every frame is a camera cut: a quarter turn more");
   command->add_flag("--stages", a->stages, "the parts of passes, too");
   command->add_flag("--json", a->json, "as JSON");
   command->callback([a, &exit] {

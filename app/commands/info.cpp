@@ -76,7 +76,7 @@ FileInfo read_file(const DataDesc& data, std::int64_t frame, Diagnostics& diagno
 }
 
 FileInfo generated_info(const std::string& name, const GeneratedName& generated) {
-  GeneratedSpheres spheres = generate_spheres(generated.count, generated.seed);
+  GeneratedSpheres spheres = generate(generated);
   FileInfo info{name, "generated", 1, {}};
   info.frame.count = generated.count;
   info.frame.columns.push_back({"position", 3, std::move(spheres.positions), ""});

@@ -2,6 +2,7 @@
 #include "app/library/frame_renderer.hpp"
 
 #include "app/codes.hpp"
+#include "app/library/device_costs.hpp"
 #include "app/library/texels.hpp"
 #include "core/image/exr.hpp"
 #include "core/image/npy.hpp"
@@ -14,9 +15,13 @@
 namespace mote::app {
 
 FrameRenderer::FrameRenderer(DrawingDevice& device, ReadyGraph graph, const ColorConfig& config, const DisplayOptions& display,
-                             passes::Expansion expansion)
+                             passes::Expansion expansion, double frames)
     : device_(device), graph_(std::move(graph)), store_(device.device()), executor_(device.device(), graph_.plan, graph_.passes) {
+  costs_ = device_costs(device.info(), cache_directory(), report_);
   options_.expansion = expansion;
+  options_.frames = frames;
+  options_.costs = &costs_;
+  options_.chosen = [this](const passes::ExpansionReport& report) { choices_.push_back(report); };
   display_.config = &config;
   display_.display = display.display;
   display_.view = display.view;
@@ -40,9 +45,18 @@ gpu::Submission FrameRenderer::draw(const View& view) {
   frame.set(&options_);
   frame.set(&display_);
   frame.set(static_cast<const passes::ParticleStore*>(&store_));
+  choices_.clear();
   const gpu::Submission submission = executor_.execute(frame, {view.size.width, view.size.height});
+  name_choices();
   device_.check();
   return submission;
+}
+
+// Reports come in the order of the plan, one from each pass that ran.
+void FrameRenderer::name_choices() {
+  auto report = choices_.begin();
+  for (std::size_t i = 0; i < plan().passes.size() && report != choices_.end(); ++i)
+    if (plan().passes[i].kind == report->kind && executor_.last_choice().skipped[i].empty()) (report++)->pass = plan().passes[i].name;
 }
 
 void FrameRenderer::wait(gpu::Submission submission) {
@@ -55,7 +69,7 @@ void FrameRenderer::wait(gpu::Submission submission) {
 }
 
 passes::Expansion FrameRenderer::expansion() const {
-  return options_.expansion == passes::Expansion::Auto ? passes::Expansion::Vertex : options_.expansion;
+  return choices_.empty() ? options_.expansion : choices_.front().choice.expansion;
 }
 
 std::vector<float> FrameRenderer::read_floats(const std::string& source) {

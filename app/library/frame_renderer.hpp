@@ -14,6 +14,7 @@
 #include "core/color/color_config.hpp"
 #include "core/scene/scene.hpp"
 #include "passes/frame.hpp"
+#include "passes/particles/expansion_choice.hpp"
 #include "passes/particles/particle_store.hpp"
 #include "render_graph/executor.hpp"
 
@@ -31,9 +32,9 @@ struct DisplayOptions {
 
 class FrameRenderer {
 public:
-  // `config` and `device` must outlive the renderer.
+  // `config` and `device` must outlive the renderer. `frames`: how many are expected to be drawn, for `auto`.
   FrameRenderer(DrawingDevice& device, ReadyGraph graph, const ColorConfig& config, const DisplayOptions& display,
-                passes::Expansion expansion);
+                passes::Expansion expansion, double frames = 1);
 
   void set_scene(const Scene& scene); // uploads; `scene` must outlive the drawing
   // Records and submits a frame. Throws Failure when a pass or the device reports an error.
@@ -52,13 +53,24 @@ public:
   void set_stage_times(bool on) { executor_.set_stage_times(on); }
   // "sRGB / Un-tone-mapped", once a frame was drawn.
   [[nodiscard]] const std::string& display_text() const { return *display_text_; }
-  [[nodiscard]] passes::Expansion expansion() const; // the one in force
+  // The one that the last frame was drawn with; before it, the one that was asked for.
+  [[nodiscard]] passes::Expansion expansion() const;
+  // What each pass that draws particles chose in the last frame, in the order of the plan.
+  [[nodiscard]] const std::vector<passes::ExpansionReport>& choices() const { return choices_; }
+  [[nodiscard]] const passes::DeviceCosts& costs() const { return costs_; }
+  void set_costs(passes::DeviceCosts costs) { costs_ = std::move(costs); }
+
+  FrameRenderer(const FrameRenderer&) = delete; // its options point into it
+  FrameRenderer& operator=(const FrameRenderer&) = delete;
 
 private:
+  void name_choices();
   [[nodiscard]] std::vector<float> read_floats(const std::string& source); // RGBA
 
   DrawingDevice& device_;
   ReadyGraph graph_;
+  passes::DeviceCosts costs_{};
+  std::vector<passes::ExpansionReport> choices_{};
   passes::FrameOptions options_{};
   passes::DisplaySettings display_{};
   std::shared_ptr<std::string> display_text_ = std::make_shared<std::string>();

@@ -27,6 +27,9 @@ constexpr double half = 50.0;         // of the cube's edge
 constexpr double margin = 4.0;        // `fit` leaves room for the largest radius
 constexpr std::uint64_t most = 100'000'000;
 const std::vector<std::string> cameras{"fit", "fill", "inside"};
+const std::vector<std::string> kinds{"spheres", "crystal", "slab", "dust"}; // order of GeneratedKind
+constexpr double dust_depth = 0.65;   // areas of all dust over that of a face: 1 - e^-0.65 = 48 % is covered
+constexpr double pi = 3.14159265358979323846;
 
 // splitmix64's mixing function (Steele, Lea, Flood 2014) of one counter value.
 std::uint64_t splitmix(std::uint64_t x) {
@@ -53,7 +56,7 @@ std::vector<std::string_view> fields_of(std::string_view name) {
 
 [[noreturn]] void refuse(std::string_view name, std::string text) {
   fail(Exit::Usage, code::generated_name, {}, fmt::format("generated scene '{}': {}", name, text),
-       {"A name is spheres:N:fit|fill|inside[:seed=S][:frame=K], for example spheres:1e5:fill"});
+       {"A name is spheres|crystal|slab|dust:N:fit|fill|inside[:seed=S][:frame=K], for example spheres:1e5:fill"});
 }
 
 std::uint64_t parse_count(std::string_view name, std::string_view word) {
@@ -87,7 +90,7 @@ void apply_option(std::string_view name, std::string_view field, GeneratedName& 
 
 bool is_generated_name(std::string_view name) {
   const std::string_view kind = name.substr(0, name.find(':'));
-  return name.find(':') != std::string_view::npos && (kind == "spheres" || kind == "sticks");
+  return name.find(':') != std::string_view::npos && (kind == "sticks" || std::find(kinds.begin(), kinds.end(), kind) != kinds.end());
 }
 
 GeneratedName parse_generated_name(std::string_view name) {
@@ -96,9 +99,11 @@ GeneratedName parse_generated_name(std::string_view name) {
     fail(Exit::Usage, code::generated_type, {},
          fmt::format("generated scene '{}' needs the particle type 'cylinder', which is not there yet", name),
          {"Particle types: sphere"});
-  if (fields[0] != "spheres") refuse(name, fmt::format("'{}' is unknown; there is 'spheres'", fields[0]));
+  const auto kind = std::find(kinds.begin(), kinds.end(), fields[0]);
+  if (kind == kinds.end()) refuse(name, fmt::format("'{}' is unknown; there are {}", fields[0], list_of(kinds)));
   if (fields.size() < 2) refuse(name, "the number of particles is missing");
   GeneratedName out;
+  out.kind = static_cast<GeneratedKind>(kind - kinds.begin());
   out.count = parse_count(name, fields[1]);
   std::size_t next = 2;
   if (fields.size() > next && fields[next].find('=') == std::string_view::npos) {
@@ -121,6 +126,44 @@ GeneratedSpheres generate_spheres(std::uint64_t count, std::uint64_t seed) {
     for (std::uint64_t i = begin; i < end; ++i)
       out.positions[i] = double{static_cast<float>((uniform(seed, i) * 2 - 1) * half)};
   });
+  return out;
+}
+
+namespace {
+
+// Touching spheres on a lattice of `across` sites along x and y; z in layers centered on 0.
+GeneratedSpheres lattice(std::uint64_t count, std::uint64_t across) {
+  GeneratedSpheres out;
+  const double spacing = 2 * half / static_cast<double>(across);
+  const std::uint64_t layer = across * across, layers = (count + layer - 1) / layer;
+  out.radii.assign(count, double{static_cast<float>(0.5 * spacing)});
+  out.positions.resize(3 * count);
+  auto place = [&](std::uint64_t site, std::uint64_t of) {
+    return double{static_cast<float>((static_cast<double>(site) - 0.5 * static_cast<double>(of - 1)) * spacing)};
+  };
+  for (std::uint64_t i = 0; i < count; ++i) {
+    out.positions[3 * i] = place(i % across, across);
+    out.positions[3 * i + 1] = place(i / across % across, across);
+    out.positions[3 * i + 2] = place(i / layer, layers);
+  }
+  return out;
+}
+
+// The least n with n^power >= count.
+std::uint64_t root(double count, double power) { return static_cast<std::uint64_t>(std::ceil(std::pow(count, 1.0 / power) - 1e-9)); }
+
+} // namespace
+
+GeneratedSpheres generate(const GeneratedName& name) {
+  const auto count = static_cast<double>(name.count);
+  switch (name.kind) {
+  case GeneratedKind::Crystal: return lattice(name.count, root(count, 3));
+  case GeneratedKind::Slab: return lattice(name.count, root(std::ceil(count / 4), 2));
+  case GeneratedKind::Spheres:
+  case GeneratedKind::Dust: break;
+  }
+  GeneratedSpheres out = generate_spheres(name.count, name.seed);
+  if (name.kind == GeneratedKind::Dust) out.radii.assign(name.count, double{static_cast<float>(2 * half * std::sqrt(dust_depth / (pi * count)))});
   return out;
 }
 

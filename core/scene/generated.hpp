@@ -4,6 +4,9 @@
 // benchmark generator, float for float.
 //
 //   spheres:N:fit|fill|inside[:seed=S][:frame=K]       N: 1000, 1e5, 2.5e6, ... up to 1e8
+//   crystal:N:...  touching spheres on a cubic lattice that fills the cube (a corner of it may be missing)
+//   slab:N:...     touching spheres on four layers of a square lattice across the cube, seen from their face: nothing to hide
+//   dust:N:...     uniform centers, all radii such that about half of what one looks through is covered
 //
 // fit sees the whole cube, fill stands so near that every pixel is hit, inside stands in the cloud and cuts at
 // near = 1 (the others need no cut: nothing lies before their near plane or behind their far plane). Frame k
@@ -24,15 +27,17 @@
 
 namespace mote {
 
+enum class GeneratedKind : std::uint8_t { Spheres, Crystal, Slab, Dust };
 enum class GeneratedCamera : std::uint8_t { Fit, Fill, Inside };
 struct GeneratedName {
   std::uint64_t count{};
   GeneratedCamera camera{GeneratedCamera::Fit};
   std::uint64_t seed{1};
   std::int64_t frame{0};
+  GeneratedKind kind{GeneratedKind::Spheres};
 };
 
-// True when the word before the first ':' is one that generates ("spheres", "sticks").
+// True when the word before the first ':' is one that generates ("spheres", "dust", ...).
 bool is_generated_name(std::string_view name);
 // Throws Failure (Usage, S019 or S020) for a name that cannot be understood or made.
 GeneratedName parse_generated_name(std::string_view name);
@@ -42,6 +47,7 @@ struct GeneratedSpheres { // every value is a float32
   std::vector<double> radii{};
 };
 GeneratedSpheres generate_spheres(std::uint64_t count, std::uint64_t seed);
+GeneratedSpheres generate(const GeneratedName& name); // of any kind
 
 Camera generated_camera(const GeneratedName& name);
 

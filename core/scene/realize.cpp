@@ -21,7 +21,7 @@ constexpr double largest_coordinate = 1e30; // farther out, float32 in view spac
 constexpr std::uint64_t most_rows = 0xFFFFFFFEu;
 
 std::shared_ptr<const data::Frame> generated_frame(const GeneratedName& name) {
-  GeneratedSpheres spheres = generate_spheres(name.count, name.seed);
+  GeneratedSpheres spheres = generate(name);
   auto frame = std::make_shared<data::Frame>();
   frame->count = name.count;
   frame->columns.push_back({"position", 3, std::move(spheres.positions), ""});

@@ -67,6 +67,25 @@ TEST(Generated, NamesAreUnderstood) {
   EXPECT_FALSE(is_generated_name("C:spheres"));
 }
 
+TEST(Generated, CrystalsSlabsAndDust) {
+  auto make = [](std::string_view name) { return generate(parse_generated_name(name)); };
+  const GeneratedSpheres crystal = make("crystal:1000");
+  ASSERT_EQ(crystal.positions.size(), 3000u);
+  EXPECT_EQ(crystal.radii[7], 5.0);
+  EXPECT_EQ(crystal.positions[0], -45.0);
+  EXPECT_EQ(crystal.positions[3 * 999 + 2], 45.0);
+  EXPECT_EQ(crystal.positions[3] - crystal.positions[0], 10.0) << "they touch";
+  const GeneratedSpheres slab = make("slab:40000:fill");
+  EXPECT_EQ(slab.radii[0], 0.5);
+  EXPECT_EQ(slab.positions[2], -1.5);
+  EXPECT_EQ(slab.positions[3 * 39999 + 2], 1.5) << "four layers";
+  const GeneratedSpheres dust = make("dust:1e4:seed=3"), spheres = generate_spheres(10000, 3);
+  EXPECT_EQ(dust.positions, spheres.positions);
+  EXPECT_NEAR(1e4 * 3.14159265 * dust.radii[0] * dust.radii[0] / 1e4, 0.65, 1e-5);
+  EXPECT_EQ(make("spheres:500:seed=2").positions, generate_spheres(500, 2).positions);
+  EXPECT_EQ(make("crystal:1001").positions.size(), 3003u) << "a number that fills no cube";
+}
+
 void expect_refused(std::string_view name, std::string_view code, std::string_view words) {
   try {
     parse_generated_name(name);

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "app/library/calibrate.hpp"
+
+#include "app/library/frame_renderer.hpp"
+#include "app/library/job.hpp"
+#include "core/scene/generated.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+
+namespace mote::app {
+namespace {
+
+using passes::Expansion;
+
+struct Shot {
+  const char* scene;
+  Size2d size;
+  bool compute_only; // too slow otherwise
+};
+// Few and many particles, small and large ones, few and many pixels: what tells the terms of the model apart.
+constexpr std::array<Shot, 6> shots{{{"spheres:1e3:fit", {1280, 720}, false},
+                                     {"spheres:1e3:fill", {640, 360}, false},
+                                     {"spheres:1e5:fit", {640, 360}, false},
+                                     {"spheres:1e5:fill", {1280, 720}, false},
+                                     {"spheres:1e4:fill", {640, 360}, false},
+                                     {"spheres:1e6:fit", {1280, 720}, true}}};
+constexpr int frames = 4;
+
+Job job_of(const Shot& shot, bool aovs) {
+  JobRequest request;
+  request.words = {shot.scene};
+  request.size = shot.size;
+  if (aovs) request.aovs = {Aov::Depth, Aov::Id, Aov::Normal};
+  Diagnostics diagnostics;
+  return load_job(request, diagnostics);
+}
+
+struct Times {
+  double first{}, median{}; // ms
+};
+Times measure(DrawingDevice& device, const ColorConfig& config, const Job& job, Expansion expansion) {
+  using Clock = std::chrono::steady_clock;
+  Diagnostics diagnostics;
+  std::optional<ReadyGraph> graph = ready_graph(job.graph, diagnostics);
+  FrameRenderer renderer(device, std::move(*graph), config, {}, expansion);
+  renderer.set_scene(job.scene);
+  std::vector<double> times;
+  for (int k = 0; k < frames + 2; ++k) {
+    const View view = job.view_of(turned(job.scene.camera, degrees_per_frame * k));
+    const Clock::time_point start = Clock::now();
+    renderer.wait(renderer.draw(view));
+    times.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+  }
+  return {times[0], median({times.begin() + 2, times.end()})};
+}
+
+bool draws(const gpu::Device& device, Expansion expansion) {
+  if (expansion == Expansion::Geometry) return gpu::has(device.features(), gpu::Feature::GeometryShader);
+  return expansion != Expansion::Compute || passes::device_lacks_tiles(device).empty();
+}
+
+} // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+passes::DeviceCosts measure_costs(DrawingDevice& device, const ColorConfig& config, const std::function<void(const std::string&)>& say) {
+  passes::DeviceCosts costs = passes::shipped_costs(device.info().type);
+  costs.source = "measured by mote calibrate";
+  std::array<std::vector<passes::CostSample>, passes::costed_expansions.size()> samples;
+  for (const Shot& shot : shots) {
+    const Job job = job_of(shot, false);
+    const passes::ViewContents contents = passes::survey(job.scene, job.view(), {});
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Expansion expansion = passes::costed_expansions[i];
+      if (!draws(device.device(), expansion) || (shot.compute_only && expansion != Expansion::Compute)) continue;
+      if (samples[i].empty()) (void)measure(device, config, job, expansion); // caches are warm from here on
+      const Times times = measure(device, config, job, expansion);
+      if (samples[i].empty()) costs.costs[i].pipeline_ms = std::max(0.0, times.first - times.median);
+      samples[i].push_back({contents, times.median});
+      say(fmt::format("{:<18} {:>4}x{:<4} {:<9} {:>8.1f} ms", shot.scene, shot.size.width, shot.size.height, passes::to_string(expansion), times.median));
+    }
+  }
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (samples[i].empty()) continue;
+    const double pipeline_ms = costs.costs[i].pipeline_ms;
+    costs.costs[i] = passes::fit_costs(passes::costed_expansions[i], samples[i]);
+    costs.costs[i].pipeline_ms = pipeline_ms;
+  }
+  const Times with = measure(device, config, job_of(shots[0], true), Expansion::Vertex);
+  const double pixels = double(shots[0].size.width) * shots[0].size.height;
+  costs.aov_ns = std::max(0.0, (with.median - samples[0][0].ms) * 1e6 / (3.0 * pixels));
+  return costs;
+}
+
+} // namespace mote::app
