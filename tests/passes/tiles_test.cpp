@@ -69,7 +69,7 @@ TEST_F(Tiles, FramesOfAMovingCameraAndACutEqualTheVertexExpansion) {
   for (std::size_t k = 0; k < views.size(); ++k) {
     const Picture got = tiles.draw(scene, views[k]);
     ASSERT_EQ(expansions_used(tiles), std::vector{Expansion::Compute});
-    EXPECT_GT(tiles.choices().front().tiled, 10u);
+    EXPECT_GT(tiles.choices().front().tiled, 0u) << "few in the cloud: what is near is drawn by quads where depth is asked for";
     expect_same(got, vertex.draw(scene, views[k]), "frame " + std::to_string(k));
   }
 }
