@@ -194,7 +194,8 @@ public:
     if (a_.reference) return annotated(draw_reference(job_, *config_, a_.device.display));
     if (!renderer_) {
       device_ = opening_.get();
-      renderer_ = std::make_unique<FrameRenderer>(*device_, std::move(*graph_), *config_, a_.device.display, parse_expansion(a_.scene.expansion));
+      renderer_ = std::make_unique<FrameRenderer>(*device_, std::move(*graph_), *config_, a_.device.display, parse_expansion(a_.scene.expansion),
+                                                  static_cast<double>(std::max<std::size_t>(1, job_.frames.size())));
     }
     renderer_->set_scene(job_.scene);
     const std::size_t panels = panel_count(*renderer_, job_.view(), a_.panel);
