@@ -90,8 +90,8 @@ const ExpansionCosts& DeviceCosts::of(Expansion expansion) const { return costs[
 
 DeviceCosts shipped_costs(gpu::DeviceType type) {
   if (type == gpu::DeviceType::Cpu)
-    return {"shipped for devices that are a processor (measured on lavapipe, two cores)",
-            {{{1.0, 700.0, 9.0, 16.0, 20.0}, {1.0, 700.0, 9.0, 16.0, 20.0}, {3.0, 12.0, 60.0, 11.0, 300.0}}},
+    return {"shipped for devices that are a processor (lavapipe, two cores)",
+            {{{0.0, 1000.0, 7.0, 21.0, 15.0}, {0.0, 1000.0, 7.0, 21.0, 15.0}, {3.5, 12.0, 120.0, 5.0, 150.0}}},
             3.0};
   // A device of its own rasterizes quickly; estimated from published rates, no figure of ours stands behind them.
   return {"shipped for graphics processors (estimates)",
