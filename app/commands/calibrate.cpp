@@ -16,6 +16,7 @@ struct CalibrateArguments {
 };
 
 void run(const CalibrateArguments& a) {
+  if (cache_directory().empty()) save_costs({}, {}, {}); // says so before anything is measured
   const ColorConfig config = ColorConfig::load("");
   DrawingDevice device(a.device);
   const passes::DeviceCosts costs = measure_costs(device, config, [&](const std::string& line) {

@@ -91,8 +91,8 @@ const ExpansionCosts& DeviceCosts::of(Expansion expansion) const { return costs[
 DeviceCosts shipped_costs(gpu::DeviceType type) {
   if (type == gpu::DeviceType::Cpu)
     return {"shipped for devices that are a processor (lavapipe, two cores)",
-            {{{0.0, 1000.0, 7.0, 21.0, 15.0}, {0.0, 1000.0, 7.0, 21.0, 15.0}, {3.5, 12.0, 120.0, 5.0, 150.0}}},
-            3.0};
+            {{{0.0, 1300.0, 8.5, 22.0, 30.0}, {0.0, 1300.0, 8.5, 22.0, 30.0}, {4.0, 5.0, 225.0, 2.5, 130.0}}},
+            4.0};
   // A device of its own rasterizes quickly; estimated from published rates, no figure of ours stands behind them.
   return {"shipped for graphics processors (estimates)",
           {{{0.1, 1.0, 0.02, 0.05, 30.0}, {0.1, 2.0, 0.02, 0.05, 30.0}, {0.3, 0.2, 0.3, 0.05, 60.0}}},

@@ -43,7 +43,7 @@ struct DeviceCosts {
   double aov_ns{};                       // of each pixel of each AOV
   [[nodiscard]] const ExpansionCosts& of(Expansion expansion) const;
 };
-// Cpu: from what mote calibrate found on lavapipe on a machine with other work, so that only their ratios count; estimates that no figure stands behind for other kinds.
+// Cpu: what mote calibrate found on lavapipe (two cores, Debian 12), of which only the ratios count elsewhere; estimates that no figure stands behind for other kinds.
 DeviceCosts shipped_costs(gpu::DeviceType type);
 
 inline constexpr double seen_layers = 4.0; // of particles that tiles cast before the rest is culled

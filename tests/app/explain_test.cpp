@@ -65,39 +65,56 @@ TEST_F(Explain, WhatTilesCannotIsNoCandidate) {
   EXPECT_FALSE(exists("x.png"));
 }
 
-std::filesystem::path costs_file(const std::filesystem::path& folder) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "cache" / "mote"))
-    if (entry.path().filename().string().starts_with("costs-")) return entry.path();
-  return {};
-}
-
-TEST_F(Explain, CalibrateKeepsWhatAutoReadsAndABadFileIsAWarning) {
+TEST_F(Explain, CalibrateKeepsWhatItMeasured) {
   const Ran ran = mote("calibrate --json");
   ASSERT_EQ(ran.exit, 0) << ran.err;
   const json costs = json::parse(ran.out);
   for (const char* name : {"vertex", "compute"}) EXPECT_GT(costs["expansions"][name]["pixel_ns"].get<double>() + costs["expansions"][name]["unit_ns"].get<double>(), 0.0);
-  const std::filesystem::path file = costs_file(folder);
-  ASSERT_FALSE(file.empty());
-  EXPECT_EQ(json::parse(read(std::filesystem::relative(file, folder).string())), costs);
+  std::string kept;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "cache" / "mote"))
+    if (entry.path().filename().string().starts_with("costs-")) kept = "cache/mote/" + entry.path().filename().string();
+  ASSERT_NE(kept, "");
+  EXPECT_EQ(json::parse(read(kept)), costs);
   EXPECT_THAT(mote("explain spheres:1e3:fit --size 64x36").out, HasSubstr("costs:  measured by mote calibrate"));
+}
 
-  json dear = costs; // vertices that cost a second: tiles even for one picture
-  dear["expansions"]["vertex"]["fixed_ms"] = 1000.0;
-  dear["expansions"]["geometry"]["fixed_ms"] = 1000.0;
-  write(std::filesystem::relative(file, folder).string(), dear.dump());
-  EXPECT_THAT(mote("explain spheres:1e3:fit --size 64x36").out, HasSubstr("expansion compute: "));
+TEST_F(Explain, CalibrateWithoutAPlaceForItsFile) {
+  const Ran ran = mote("calibrate", "XDG_CACHE_HOME= HOME=");
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_THAT(ran.err, HasSubstr("error A041: there is no folder for caches"));
+}
 
-  for (const std::string bad : {"{", "{}", "[]"}) {
-    write(std::filesystem::relative(file, folder).string(), bad);
+TEST_F(Explain, MeasuredCostsDecideAndABadFileIsAWarning) {
+  ASSERT_EQ(mote("render spheres:1e3:fit --size 64x36 -o x.png").exit, 0);
+  std::string key; // device and driver, as in the name of the pipeline cache
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "cache" / "mote"))
+    if (const std::string name = entry.path().stem().string(); name.starts_with("pipelines-")) key = name.substr(10);
+  ASSERT_NE(key, "");
+  const std::string file = "cache/mote/costs-" + key + ".json";
+  json costs{{"version", 1}, {"device_uuid", key.substr(0, key.rfind('-'))}, {"aov_ns", 1}};
+  for (const char* name : {"vertex", "geometry", "compute"})
+    costs["expansions"][name] = {{"fixed_ms", 1000}, {"particle_ns", 1}, {"unit_ns", 1}, {"pixel_ns", 1}, {"pipeline_ms", 0}};
+  costs["expansions"]["compute"]["fixed_ms"] = 1;
+  write(file, costs.dump());
+  const Ran ran = mote("explain spheres:1e3:fit --size 64x36");
+  EXPECT_THAT(ran.out, HasSubstr("costs:  measured by mote calibrate")) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("expansion compute: "));
+  const auto expect_warning = [&](const std::string& text, const std::string& words) {
+    write(file, text);
     const Ran drawn = mote("render spheres:1e3:fit --size 64x36 -o x.png");
     EXPECT_EQ(drawn.exit, 0);
-    EXPECT_THAT(drawn.err, HasSubstr("warning A040: the measured costs of the device cannot be read")) << bad;
-  }
-  json negative = costs;
-  negative["expansions"]["compute"]["unit_ns"] = -1;
-  write(std::filesystem::relative(file, folder).string(), negative.dump());
-  EXPECT_THAT(mote("render spheres:1e3:fit --size 64x36 -o x.png").err, HasSubstr("unit_ns is -1"));
-  EXPECT_EQ(mote("calibrate", "XDG_CACHE_HOME= HOME=").exit, 1);
+    EXPECT_THAT(drawn.err, HasSubstr("warning A040: the measured costs of the device cannot be read"));
+    EXPECT_THAT(drawn.err, HasSubstr(words));
+  };
+  expect_warning("{", "parse error");
+  expect_warning("{}", "version");
+  expect_warning("[]", "array");
+  json bad = costs;
+  bad["expansions"]["compute"]["unit_ns"] = -1;
+  expect_warning(bad.dump(), "unit_ns is -1");
+  bad = costs;
+  bad["device_uuid"] = "00";
+  expect_warning(bad.dump(), "another device");
 }
 
 TEST_F(Explain, BenchTurnsAndCuts) {
