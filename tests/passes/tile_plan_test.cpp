@@ -68,6 +68,15 @@ TEST(TilePlan, StepsCoverEveryChunkOnceInEachMode) {
   }
 }
 
+// As many chunks in a round as there can be: each reserves the least.
+TEST(TilePlan, RoundsOfTheSmallestChunks) {
+  const std::vector<TileChunk> chunks(20000, chunk_at(1.0f, {3, 3}, {3, 3}, {1, 1}, 0));
+  for (const std::uint32_t capacity : {1u << 12, 1u << 16}) {
+    const TilePlan plan = plan_tiles(chunks, 640, 360, capacity);
+    for (const TileStep& step : plan.steps) expect_rounds_hold(plan, step, chunks);
+  }
+}
+
 TEST(TilePlan, AFewChunksAreSeenBeforeTheOthersAndManyInParts) {
   const TilePlan few = plan_tiles(random_chunks(2048, 1), 640, 360, 1u << 21);
   EXPECT_EQ(few.steps.size(), 2u);
