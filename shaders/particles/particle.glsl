@@ -105,9 +105,9 @@ Loaded load_particle(uint index) {
   return loaded;
 }
 
-// Growth of a proxy on each side: pixels for vertex snapping (1/256) and rounding near the center, and a
+// Growth of a proxy on each side: pixels for the snapping of corners and rounding near the center, and a
 // fraction of its extent for the rounding of large ones.
-const float proxy_margin = 0.01;
+const float proxy_margin = 0.04; // Vulkan lets a rasterizer snap to 1/16 of a pixel: 1/32 off
 const float proxy_growth = 2e-6;
 
 // Corner i (0..3, strip order) of the proxy in clip space, with w = 1 so that nothing is near-clipped. The depth is
