@@ -131,11 +131,11 @@ private:
     key.aovs = aovs_;
     const bool draw_on = !tiled_.rest.draws.empty();
     TileTargets targets{.color = context.whole_texture("color"),
-                              .encoded_depth = draw_on || context.kept("depth") ? context.whole_texture("depth") : gpu::Texture(),
-                              .depth = context.whole_texture("aov_depth"),
-                              .id = context.whole_texture("aov_id"),
-                              .normal = context.whole_texture("aov_normal"),
-                              .background = clear_value("color", context.frame())};
+                        .encoded_depth = draw_on || context.kept("depth") ? context.whole_texture("depth") : gpu::Texture(),
+                        .depth = context.whole_texture("aov_depth"),
+                        .id = context.whole_texture("aov_id"),
+                        .normal = context.whole_texture("aov_normal"),
+                        .background = clear_value("color", context.frame())};
     const auto next = draw_on ? std::nullopt : context.successor("color");
     if (next && TileRenderer::works(context.device(), next->target.format())) {
       const DisplaySettings* display = context.frame().find<DisplaySettings>();

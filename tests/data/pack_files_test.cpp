@@ -36,7 +36,15 @@ bool is_no_particle_file(const std::string& name) {
 
 std::string mismatch(const Frame& frame, const nlohmann::json& want) {
   // Without point data the particles are the centers of the cells (D072); the reference lists the grid's points.
-  if (want.contains("cells") && want["cells"].is_number() && frame.count == want["cells"].get<std::uint64_t>()) return {};
+  if (want.contains("cells") && want["cells"].is_number() && frame.count == want["cells"].get<std::uint64_t>() &&
+      frame.count != want.value("count", frame.count)) {
+    const Column& centers = *frame.find("position");
+    for (std::uint64_t i = 0; i < frame.count; ++i)
+      for (std::uint32_t k = 0; k < 3; ++k)
+        if (!(centers.number(i, k) > want["min"][k].get<double>() && centers.number(i, k) < want["max"][k].get<double>()))
+          return fmt::format("cell {} lies outside the grid", i);
+    return {};
+  }
   if (want.contains("count") && frame.count != want["count"].get<std::uint64_t>()) return "count";
   if (!want.contains("min") || frame.find("id")) return {};
   const Column& position = *frame.find("position");

@@ -25,7 +25,7 @@ gpu::BindGroupLayout layout_of(gpu::Device& device, std::string_view label, std:
 constexpr Type in = Type::ReadOnlyStorageBuffer, io = Type::StorageBuffer;
 constexpr std::array slice_types{in, in, in};
 constexpr std::array binning_types{in, in, io, io, io, io, io, io, io, io, io, io}; // binning.glsl
-constexpr std::array cast_types{in, in, in, in, io, io, in, in, io, io, io, io, io, io, io}; // cast.comp
+constexpr std::array cast_types{in, in, in, in, in, io, in, in, io, io, io, io, io, io, io}; // cast.comp
 
 } // namespace
 

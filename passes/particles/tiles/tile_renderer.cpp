@@ -14,6 +14,7 @@ namespace {
 
 using Usage = gpu::BufferUsage;
 constexpr std::uint32_t most_capacity = 1u << 21;     // entries of a round: 32 MiB of them, 20 MiB of placed particles
+constexpr float infinitely_far = 3e38f;               // as in cast.comp
 constexpr std::uint32_t infinity_bits = 0x7F800000u;
 constexpr std::uint32_t workgroup = 64;               // of all kernels but cast
 
@@ -55,8 +56,8 @@ void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t he
   plan_ = plan_tiles(view.chunks, width, height, most_capacity);
   block_ = {.slices = static_cast<std::uint32_t>(view.slices.size()), .capacity = plan_.capacity, .list_capacity = plan_.list_capacity,
             .tiles_x = plan_.tiles_x, .tiles_y = plan_.tiles_y, .level1 = plan_.level1, .level2 = plan_.level2, .level3 = plan_.level3,
-            .width = width, .height = height, .tile_room = plan_.tile_room, .stamp = block_.stamp + 1,
-            .spilled = plan_.level1 * plan_.tile_room + plan_.most_entries, .material = view.materials.empty() ? glm::vec4(0) : view.materials.front()};
+            .width = width, .height = height, .tile_room = plan_.tile_room, .spilled = plan_.level1 * plan_.tile_room + plan_.most_entries,
+            .material = view.materials.empty() ? glm::vec4(0) : view.materials.front()};
   if (view.chunks.empty()) return;
 
   regions_.clear();
@@ -127,6 +128,7 @@ void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& target
   if (tiles_fresh_) encoder.clear_buffer(b.tiles);
   tiles_fresh_ = false;
   encoder.clear_buffer(b.far, 0, 0, infinity_bits);
+  encoder.clear_buffer(b.nearest, 0, std::uint64_t{block_.width} * block_.height * 4, std::bit_cast<std::uint32_t>(infinitely_far));
   if (flags_fresh_) encoder.clear_buffer(b.flags);
   if (targets.encoded_depth) encoder.clear_buffer(b.encoded);
   if (targets.depth) encoder.clear_buffer(b.depth, 0, 0, infinity_bits);

@@ -37,7 +37,7 @@ layout(std430, set = 1, binding = 0) readonly buffer Materials { vec4 materials[
 layout(std430, set = 1, binding = 1) readonly buffer Payloads { PAIR payloads[]; };
 layout(std430, set = 1, binding = 2) readonly buffer Colors { PAIR placed_colors[]; };
 layout(std430, set = 1, binding = 3) readonly buffer Ids { uint placed_ids[]; };
-layout(std430, set = 1, binding = 4) buffer Tiles { uint tiles[]; };
+layout(std430, set = 1, binding = 4) readonly buffer Tiles { uint tiles[]; };
 layout(std430, set = 1, binding = 5) buffer Far { float far[]; };
 layout(std430, set = 1, binding = 6) readonly buffer Active { uint active_tiles[]; };
 layout(std430, set = 1, binding = 7) readonly buffer Entries { PAIR entries[]; };
@@ -49,7 +49,7 @@ layout(std430, set = 1, binding = 12) writeonly buffer OutId { uint out_id[]; };
 layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { vec4 out_normal[]; };
 layout(std430, set = 1, binding = 14) writeonly buffer OutColorPairs { PAIR out_color_pairs[]; }; // the wider formats
 
-const float infinitely_far = 3e38;
+const float infinitely_far = 3e38; // what `nearest` is filled with before a frame
 
 uint lane() { return gl_LocalInvocationID.x; }
 // Pixel k of this invocation, within the tile.
@@ -175,7 +175,6 @@ void main() {
   uint tile = active_tiles[gl_WorkGroupID.x];
   uint cursor = tiles[4u * tile + 1u], end = tiles[4u * tile + 2u], at = 0u;
   uint own = tile * step.tile_room, spilled = cursor - (end - min(end, step.tile_room)) - step.tile_room; // entry k is there + k
-  bool untouched = first_round || tiles[4u * tile + 3u] != step.stamp;
   uvec2 base = uvec2(tile % step.tiles_x, tile / step.tiles_x) * uint(tile_size);
 
   // Rays to visibility's precision: a ten-thousandth of a pixel. resolve() forms the exact ones.
@@ -193,12 +192,12 @@ void main() {
   bool inside = base.x + p.x < u.width && base.y + p.y < height; \
   uint pixel = (base.y + p.y) * u.width + base.x + p.x; \
   key[k] = !inside ? -1.0 : infinitely_far; \
-  if (!first_round) { if (inside && !untouched) key[k] = nearest[pixel]; } \
+  if (!first_round) { if (inside) key[k] = nearest[pixel]; } \
   won[k] = no_particle; }
   FOR_PIXELS(START)
   vec2 least = max(max(offset, -(offset + float(tile_size - 1))), vec2(0.0)) * inverse_focal;
   float least_ray2 = orthographic ? 1.0 : 1.0 + dot(least, least);
-  float hidden_from = untouched ? uintBitsToFloat(0x7F800000u) : far[tile];
+  float hidden_from = first_round ? uintBitsToFloat(0x7F800000u) : far[tile];
 
   do {
     // The next LANES entries of which at least one may be seen.
@@ -218,25 +217,7 @@ void main() {
     hidden_from = farthest_depth(farthest, least_ray2);
   } while (at < end);
 
-  if (subgroupElect()) {
-    far[tile] = hidden_from;
-    tiles[4u * tile + 3u] = step.stamp;
-  }
-
-  // A tile that is cast for the first time in this frame: its open pixels are told from those of an earlier frame.
-  uint open_rows = 0u;
-#define OPEN(k) open_rows |= untouched && won[k] == no_particle && key[k] > 0.0 ? 1u << (k) : 0u;
-  FOR_PIXELS(OPEN)
-  open_rows = subgroupOr(open_rows);
-  do {
-    int row = findLSB(open_rows);
-    bool mine_open = false;
-#define IS_OPEN(k) mine_open = row == (k) ? won[k] == no_particle && key[k] > 0.0 : mine_open;
-    FOR_PIXELS(IS_OPEN)
-    uvec2 pixel = base + pixel_of(row);
-    if (mine_open) nearest[pixel.y * u.width + pixel.x] = infinitely_far;
-    open_rows &= open_rows - 1u;
-  } while (open_rows != 0u);
+  if (subgroupElect()) far[tile] = hidden_from;
 
   // Only rows of pixels in which something changed: in later rounds few do.
   uint changed = 0u;

@@ -37,9 +37,8 @@ layout(push_constant) uniform StepBlock {
   uint level1, level2, level3; // where the coarser levels start in `far`; level 0 starts at 0
   uint width, height;       // pixels
   uint tile_room;           // entries that a tile holds by itself
-  uint stamp;               // of this frame: tiles that bear it were cast before
   uint spilled;             // where the list of entries without a place starts in `entries`
-  uint unused0;
+  uint unused0, unused1;
   vec4 material;            // of all batches, with one_material
 } step;
 
