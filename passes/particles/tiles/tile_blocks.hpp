@@ -13,7 +13,8 @@ constexpr std::uint32_t tile_size = 8; // pixels
 // Push constants of every kernel.
 struct StepBlock {
   std::uint32_t first{}, count{}, others{}, region{}, round{}, slice{}, slices{}, capacity{}, list_capacity{};
-  std::uint32_t tiles_x{}, tiles_y{}, level1{}, level2{}, level3{}, width{}, height{}, tile_room{}, spilled{}, unused[2]{};
+  std::uint32_t tiles_x{}, tiles_y{}, level1{}, level2{}, level3{}, width{}, height{}, tile_room{}, spilled{};
+  float depth_origin{}, depth_scale{};
   glm::vec4 material{};
 };
 static_assert(sizeof(StepBlock) == 96);

@@ -77,7 +77,10 @@ TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std:
   plan.cells = plan.level3 + cells_of(plan.tiles_x, 6) * cells_of(plan.tiles_y, 6);
 
   std::uint64_t reserved = 0, largest = 0;
+  plan.depth_first = plan.depth_last = chunks.empty() ? 1.0f : chunks.front().z_min;
   for (const TileChunk& chunk : chunks) {
+    plan.depth_first = std::min(plan.depth_first, chunk.z_min);
+    plan.depth_last = std::max(plan.depth_last, chunk.z_min);
     reserved += reserved_entries(chunk);
     largest = std::max(largest, reserved_entries(chunk));
   }

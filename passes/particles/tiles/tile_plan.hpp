@@ -33,6 +33,7 @@ struct TilePlan {
   std::uint32_t most_entries{};  // that a round can hold: capacity and one chunk more
   std::uint32_t list_capacity{}; // chunks of one round
   std::uint32_t tile_room{};     // entries that each tile has places for; what is more goes to a list of most_entries
+  float depth_first{}, depth_last{}; // the least and the greatest z_min of the chunks
   std::vector<TileStep> steps{};
   [[nodiscard]] std::uint32_t most_rounds() const;
 };

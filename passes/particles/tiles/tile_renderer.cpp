@@ -13,7 +13,9 @@ namespace mote::passes {
 namespace {
 
 using Usage = gpu::BufferUsage;
-constexpr std::uint32_t most_capacity = 1u << 21;     // entries of a round: 32 MiB of them, 20 MiB of placed particles
+constexpr std::uint32_t most_capacity = 1u << 21;     // entries of a round: 24 MiB of them, 20 MiB of placed particles
+static_assert((most_capacity / 256 + 1) * chunk_capacity <= 1u << 20); // place_bits of work.glsl
+constexpr float last_depth_step = 4095;               // as in work.glsl
 constexpr float infinitely_far = 3e38f;               // as in cast.comp
 constexpr std::uint32_t infinity_bits = 0x7F800000u;
 constexpr std::uint32_t workgroup = 64;               // of all kernels but cast
@@ -57,6 +59,7 @@ void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t he
   block_ = {.slices = static_cast<std::uint32_t>(view.slices.size()), .capacity = plan_.capacity, .list_capacity = plan_.list_capacity,
             .tiles_x = plan_.tiles_x, .tiles_y = plan_.tiles_y, .level1 = plan_.level1, .level2 = plan_.level2, .level3 = plan_.level3,
             .width = width, .height = height, .tile_room = plan_.tile_room, .spilled = plan_.level1 * plan_.tile_room + plan_.most_entries,
+            .depth_origin = plan_.depth_first, .depth_scale = last_depth_step / std::max(plan_.depth_last - plan_.depth_first, 1e-6f * plan_.depth_last),
             .material = view.materials.empty() ? glm::vec4(0) : view.materials.front()};
   if (view.chunks.empty()) return;
 
@@ -90,10 +93,10 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.payloads, "tiles.payloads", places * payload, storage);
   reserve(b.colors, "tiles.colors", places * 8, storage);
   reserve(b.ids, "tiles.ids", targets.id ? places * 4 : 0, storage);
-  tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 16ull, storage) || tiles_fresh_;
+  tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 12ull, storage) || tiles_fresh_;
   reserve(b.far, "tiles.far", plan_.cells * 4ull, storage);
   reserve(b.active, "tiles.active", plan_.level1 * 4ull, storage);
-  reserve(b.entries, "tiles.entries", (std::uint64_t{plan_.level1} * plan_.tile_room + 2ull * plan_.most_entries) * 8, storage);
+  reserve(b.entries, "tiles.entries", (std::uint64_t{plan_.level1} * plan_.tile_room + 3ull * plan_.most_entries) * 4, storage);
   reserve(b.nearest, "tiles.nearest", pixels * 4, storage);
   reserve(b.color, "tiles.color", pixels * color_words_ * 4, storage);
   reserve(b.unused_color, "tiles.unused_color", 0, storage);

@@ -11,12 +11,12 @@ void main() {
   if (t >= step.tiles_x * step.tiles_y) return;
   uint list = scatter_arguments(step.round);
   if (t == 0u) arguments[list] = (arguments[list + 3u] + 63u) / 64u;
-  uint count = tiles[4u * t];
+  uint count = tiles[t];
   if (count == 0u) return;
   uint own = step.tiles_x * step.tiles_y * step.tile_room;
   uint rest = count - min(count, step.tile_room);
-  tiles[4u * t + 1u] = own + atomicAdd(arguments[allocate_arguments(step.round) + 3u], rest);
-  tiles[4u * t + 2u] = count;
-  tiles[4u * t] = 0u;
+  tiles[tile_cursor(t)] = own + atomicAdd(arguments[allocate_arguments(step.round) + 3u], rest);
+  tiles[tile_end(t)] = count;
+  tiles[t] = 0u;
   active_tiles[atomicAdd(arguments[cast_arguments(step.round)], 1u)] = t;
 }

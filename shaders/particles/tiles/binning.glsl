@@ -13,11 +13,11 @@ layout(std430, set = 2, binding = 4) buffer Arguments { uint arguments[]; };
 layout(std430, set = 2, binding = 5) buffer Payloads { PAIR payloads[]; };  // of the round's particles, 64 a chunk
 layout(std430, set = 2, binding = 6) buffer Colors { PAIR placed_colors[]; }; // half floats: r g, b and the material's number
 layout(std430, set = 2, binding = 7) buffer Ids { uint placed_ids[]; };
-layout(std430, set = 2, binding = 8) buffer Tiles { uint tiles[]; };        // per tile: count while placing, cursor in the list's part, number of entries
+layout(std430, set = 2, binding = 8) buffer Tiles { uint tiles[]; };        // counts, cursors, ends: see tile_cursor()
 layout(std430, set = 2, binding = 9) buffer Far { float far[]; };          // farthest depth of each tile, then of coarser cells
 layout(std430, set = 2, binding = 10) buffer Active { uint active_tiles[]; };
-layout(std430, set = 2, binding = 11) buffer Entries { PAIR entries[]; };   // place of a particle and bits of its z_min: tile_room a tile, then those
-                                                                            // of the list in tile order; then the list: tile and place
+layout(std430, set = 2, binding = 11) buffer Entries { uint entries[]; };   // tile_room a tile, then those of the list in tile order; then the
+                                                                            // list itself, two words each: tile and place
 
 uint level_start(uint level) { return level == 0u ? 0u : level == 1u ? step.level1 : level == 2u ? step.level2 : step.level3; }
 

@@ -40,7 +40,7 @@ layout(std430, set = 1, binding = 3) readonly buffer Ids { uint placed_ids[]; };
 layout(std430, set = 1, binding = 4) readonly buffer Tiles { uint tiles[]; };
 layout(std430, set = 1, binding = 5) buffer Far { float far[]; };
 layout(std430, set = 1, binding = 6) readonly buffer Active { uint active_tiles[]; };
-layout(std430, set = 1, binding = 7) readonly buffer Entries { PAIR entries[]; };
+layout(std430, set = 1, binding = 7) readonly buffer Entries { uint entries[]; };
 layout(std430, set = 1, binding = 8) buffer Keys { float nearest[]; };       // per pixel: view depth times |ray|^2
 layout(std430, set = 1, binding = 9) writeonly buffer OutColor { uint out_color[]; };       // rgba8unorm
 layout(std430, set = 1, binding = 10) writeonly buffer OutEncoded { float out_encoded[]; };
@@ -173,7 +173,7 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, uint winner) {
 
 void main() {
   uint tile = active_tiles[gl_WorkGroupID.x];
-  uint cursor = tiles[4u * tile + 1u], end = tiles[4u * tile + 2u], at = 0u;
+  uint cursor = tiles[tile_cursor(tile)], end = tiles[tile_end(tile)], at = 0u;
   uint own = tile * step.tile_room, spilled = cursor - (end - min(end, step.tile_room)) - step.tile_room; // entry k is there + k
   uvec2 base = uvec2(tile % step.tiles_x, tile / step.tiles_x) * uint(tile_size);
 
@@ -198,6 +198,8 @@ void main() {
   vec2 least = max(max(offset, -(offset + float(tile_size - 1))), vec2(0.0)) * inverse_focal;
   float least_ray2 = orthographic ? 1.0 : 1.0 + dot(least, least);
   float hidden_from = first_round ? uintBitsToFloat(0x7F800000u) : far[tile];
+  float depth_origin = step.depth_origin, depth_scale = step.depth_scale;
+  uint hidden_step = depth_step(hidden_from, depth_origin, depth_scale);
 
   do {
     // The next LANES entries of which at least one may be seen.
@@ -205,16 +207,17 @@ void main() {
     bool alive;
     do {
       uint mine_at = min(at + lane(), end - 1u);
-      uvec2 filed = words(entries[(mine_at < room ? own : spilled) + mine_at]);
-      entry = filed.x;
-      alive = at + lane() < end && uintBitsToFloat(filed.y) < hidden_from;
+      entry = entries[(mine_at < room ? own : spilled) + mine_at];
+      alive = at + lane() < end && entry >> place_bits <= hidden_step;
       at += uint(LANES);
     } while (at < end && !subgroupAny(alive));
+    entry = place_of(entry);
     TileTest mine = tile_test(load_particle(entry), alive);
     FOR_LANES(TEST_LANE)
     float farthest = 0.0;
     FOR_PIXELS(FARTHEST)
     hidden_from = farthest_depth(farthest, least_ray2);
+    hidden_step = depth_step(hidden_from, depth_origin, depth_scale);
   } while (at < end);
 
   if (subgroupElect()) far[tile] = hidden_from;

@@ -9,6 +9,6 @@ layout(local_size_x = 64) in;
 
 void main() {
   if (gl_GlobalInvocationID.x >= arguments[scatter_arguments(step.round) + 3u]) return;
-  uvec2 which = words(entries[step.spilled + gl_GlobalInvocationID.x]); // tile, place
-  entries[atomicAdd(tiles[4u * which.x + 1u], 1u)] = pair(uvec2(which.y, 0u));
+  uint which = step.spilled + 2u * gl_GlobalInvocationID.x, tile = entries[which];
+  entries[atomicAdd(tiles[tile_cursor(tile)], 1u)] = entries[which + 1u];
 }

@@ -38,7 +38,7 @@ layout(push_constant) uniform StepBlock {
   uint width, height;       // pixels
   uint tile_room;           // entries that a tile holds by itself
   uint spilled;             // where the list of entries without a place starts in `entries`
-  uint unused0, unused1;
+  float depth_origin, depth_scale; // of entries' steps of depth
   vec4 material;            // of all batches, with one_material
 } step;
 
@@ -63,6 +63,17 @@ uint cast_arguments(uint round) { return round_arguments(round) + 4u * (step.sli
 uint scatter_arguments(uint round) { return round_arguments(round) + 4u * (step.slices + 2u); } // its 4th: entries on the list
 
 uint list_at(uint round, uint slice) { return (round * step.slices + slice) * step.list_capacity; }
+
+// Words of all tiles: how many entries each has while placing (close together: they are counted up all over the image), then cursors
+// in the list's part, then numbers of entries.
+uint tile_cursor(uint tile) { return step.level1 + tile; }
+uint tile_end(uint tile) { return 2u * step.level1 + tile; }
+
+// An entry: the place of a particle in its round and, above it, the step of depth in which its nearest point lies. One word, since
+// entries are written all over memory. Steps grow with depth, so what lies before a depth has no larger step than it has.
+const uint place_bits = 20u, last_depth_step = 4095u;
+uint depth_step(float z, float origin, float scale) { return uint(clamp((z - origin) * scale, 0.0, float(last_depth_step))); }
+uint place_of(uint entry) { return entry & ((1u << place_bits) - 1u); }
 
 const uint no_particle = 0xFFFFFFFFu;
 
