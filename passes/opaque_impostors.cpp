@@ -9,7 +9,7 @@
 #include "passes/particles/pipelines.hpp"
 #include "passes/particles/quad_indices.hpp"
 #include "passes/particles/selection.hpp"
-#include "passes/particles/tiles/tile_renderer.hpp"
+#include "passes/particles/tiles/tiled_drawing.hpp"
 #include "passes/sampling/accumulator.hpp"
 #include "passes/sampling/pattern.hpp"
 #include "passes/scratch.hpp"
@@ -94,20 +94,21 @@ public:
     choose(context);
     const Expansion expansion = report_.choice.expansion;
     const double largest_point = expansion == Expansion::Point ? double{gpu::max_point_size(device)} : 0.0;
-    const bool tiled = expansion == Expansion::Compute && record_tiles(context, store);
-    if (!tiled) placed_ = store.place(scene, view, 0, largest_point);
-    report_.tiled = tiled ? tiled_.chunks.size() : 0;
-    report_.rastered = (tiled ? tiled_.rest : placed_).chunks_placed;
-    if (const auto& chosen = context.frame().get<FrameOptions>().chosen) chosen(report_);
-    if (tiled && tiled_.rest.draws.empty()) return;
-    raster_ = expansion == Expansion::Geometry ? expansion : Expansion::Vertex;
-    reserve_indices(device, tiled ? tiled_.rest : placed_);
     if (deferred_) update_surfaces(context, surfaces_, false);
+    const bool tiled = expansion == Expansion::Compute && place_tiles(context, store);
+    placed_ = tiled ? tiled_.rest() : store.place(scene, view, 0, largest_point);
+    report_.tiled = tiled ? tiled_.chunks() : 0;
+    report_.rastered = placed_.chunks_placed;
+    if (const auto& chosen = context.frame().get<FrameOptions>().chosen) chosen(report_);
+    if (tiled) record_tiles(context);
+    raster_ = expansion == Expansion::Geometry ? expansion : Expansion::Vertex;
+    reserve_indices(device, placed_);
     if (offsets_.size() > 1) return record_samples(context);
     if (analytic_edges_) return record_edges(context);
-    if (deferred_) return draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_.get());
+    if (deferred_) return draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_.get(), tiled);
+    if (tiled && placed_.draws.empty()) return;
     gpu::RenderPass pass = context.begin_attachments(tiled);
-    draw_particles(context, pass, tiled ? tiled_.rest : placed_, {frame_group_, targets_, aovs_}, nullptr);
+    draw_particles(context, pass, placed_, {frame_group_, targets_, aovs_}, nullptr);
     pass.end();
   }
 
@@ -118,43 +119,35 @@ public:
 
 private:
   // False: nothing in view is for tiles.
-  bool record_tiles(rg::PassContext& context, const ParticleStore& store) {
-    const Scene& scene = selected(context.frame().get<Scene>());
-    const View& view = context.frame().get<View>();
-    const bool exact = aovs_ != 0 || context.kept("depth");
-    store.place_tiles(scene, view, exact, tiled_);
-    if (!tiles_) tiles_ = std::make_unique<TileRenderer>(context.device(), pipelines_->frame_layout());
-    if (tiled_.chunks.empty()) return false;
-    tiles_->update(tiled_, view.size.width, view.size.height);
-    bool mixed = false;
-    ParticlePipelineKey key = key_for_all(scene, view, mixed); // never mixed: why_not() has looked
-    key.aovs = aovs_;
-    const bool draw_on = !tiled_.rest.draws.empty();
+  bool place_tiles(rg::PassContext& context, const ParticleStore& store) {
+    TileWish wish{context.frame().get<Scene>(), context.frame().get<View>(), selection_, Phase::Opaque, aovs_};
+    wish.placing.exact = aovs_ != 0 || context.kept("depth");
+    if (deferred_) {
+      wish.phase = Phase::Surface;
+      wish.aovs = aov_id_bit;
+      wish.placing.material = [this](const Batch& batch) { return surfaces_->material_of(batch); };
+    }
+    return tiled_.place(context.device(), store, pipelines_->frame_layout(), wish);
+  }
+
+  void record_tiles(rg::PassContext& context) {
+    const bool draw_on = !tiled_.rest().draws.empty();
     TileTargets targets{.color = context.whole_texture("color"),
                         .encoded_depth = draw_on || context.kept("depth") ? context.whole_texture("depth") : gpu::Texture(),
                         .depth = context.whole_texture("aov_depth"),
                         .id = context.whole_texture("aov_id"),
                         .normal = context.whole_texture("aov_normal"),
                         .background = clear_value("color", context.frame())};
-    const auto next = draw_on ? std::nullopt : context.successor("color");
-    if (next && TileRenderer::works(context.device(), next->target.format())) {
+    if (deferred_) {
+      targets = {.color = surfaces_->color(), .encoded_depth = targets.encoded_depth, .id = surfaces_->id(), .normal = surfaces_->normal_t()};
+    } else if (const auto next = draw_on ? std::nullopt : context.successor("color"); next && TileRenderer::works(context.device(), next->target.format())) {
       const DisplaySettings* display = context.frame().find<DisplaySettings>();
       targets.map = next->map;
       targets.color = next->target;
       targets.cache_directory = display ? display->cache_directory : std::string();
       context.take_over("color");
     }
-    tiles_->record(context.encoder(), tiled_, frame_group_, key, targets, [&](std::string_view stage) { context.mark(stage); });
-    return true;
-  }
-
-  // The scene without the batches that are not this pass's.
-  const Scene& selected(const Scene& scene) {
-    const auto mine = [&](const Batch& batch) { return selection_.draws(batch); };
-    if (std::all_of(scene.batches.begin(), scene.batches.end(), mine)) return scene;
-    selected_ = scene;
-    std::erase_if(selected_.batches, [&](const Batch& batch) { return !mine(batch); });
-    return selected_;
+    tiled_.record(context.encoder(), frame_group_, targets, [&](std::string_view stage) { context.mark(stage); });
   }
 
   void reserve_indices(gpu::Device& device, const PlacedView& placed) {
@@ -221,16 +214,24 @@ private:
     return out;
   }
 
-  // The picture of one sample offset. With `surfaces`: what all particles leave there, then each pixel's shading once.
+  // The picture of one sample offset. With `surfaces`: what all particles leave there, then each pixel's shading once;
+  // `begun`: on top of the surfaces that tiles have left.
   void draw_picture(rg::PassContext& context, const gpu::BindGroup& frame, const Targets& targets, std::uint32_t aovs, const gpu::TextureView& depth,
-                    SurfaceShading* surfaces) {
-    const std::vector<gpu::ColorAttachment> colors = targets.attachments(), drawn = surfaces ? surfaces->attachments() : colors;
-    Into into{frame, {}, surfaces ? 0 : aovs};
-    for (const gpu::ColorAttachment& attachment : drawn) into.formats.push_back(attachment.view->format());
-    gpu::RenderPass pass = context.encoder().begin_render_pass({.label = "particles", .colors = drawn, 
-         .depth = gpu::DepthAttachment{.view = &depth, .clear = static_cast<float>(cleared_depth(states_))}});
-    draw_particles(context, pass, placed_, into, surfaces);
-    pass.end();
+                    SurfaceShading* surfaces, bool begun = false) {
+    const std::vector<gpu::ColorAttachment> colors = targets.attachments();
+    if (!begun || !placed_.draws.empty()) {
+      std::vector<gpu::ColorAttachment> drawn = surfaces ? surfaces->attachments() : colors;
+      const gpu::LoadOp load = begun ? gpu::LoadOp::Load : gpu::LoadOp::Clear;
+      Into into{frame, {}, surfaces ? 0 : aovs};
+      for (gpu::ColorAttachment& attachment : drawn) {
+        attachment.load = load;
+        into.formats.push_back(attachment.view->format());
+      }
+      gpu::RenderPass pass = context.encoder().begin_render_pass({.label = "particles", .colors = drawn,
+           .depth = gpu::DepthAttachment{.view = &depth, .load = load, .clear = static_cast<float>(cleared_depth(states_))}});
+      draw_particles(context, pass, placed_, into, surfaces);
+      pass.end();
+    }
     if (surfaces) surfaces->record(context.encoder(), frame, colors, aovs);
   }
 
@@ -300,7 +301,8 @@ private:
     const gpu::Device device = context.device();
     const ExpansionNeeds needs{device, scene, context.frame().get<View>(), selection_, states_, context.format("color"),
                                static_cast<std::uint32_t>(std::popcount(aovs_)),
-                               deferred_ ? "shadow maps" : analytic_edges_ ? "analytic edges" : offsets_.size() > 1 ? "several samples a pixel" : ""};
+                               analytic_edges_ ? "analytic edges" : offsets_.size() > 1 ? "several samples a pixel" : "",
+                               deferred_ ? Phase::Surface : Phase::Opaque};
     report_ = {.kind = "opaque_impostors", .choice = choose_expansion(needs, options, chooser_), .automatic = options.expansion == Expansion::Auto};
     lacks_tiles_ = report_.automatic ? device_lacks_tiles(device) : std::string();
   }
@@ -329,9 +331,7 @@ private:
   gpu::BindGroup frame_group_;
   QuadIndices indices_;
   PlacedView placed_;
-  TiledView tiled_;
-  Scene selected_; // alive while its draws are recorded
-  std::unique_ptr<TileRenderer> tiles_;
+  TiledDrawing tiled_;
   std::unique_ptr<SurfaceShading> surfaces_, edge_surfaces_;
   bool analytic_edges_{};
   gpu::Texture edge_depth_;

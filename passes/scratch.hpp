@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Textures that a pass keeps to itself, because whether it needs them depends on what is connected to
-// it or on its parameters: no slot, no source, never seen by the graph. Attachments that are sampled.
+// it or on its parameters: no slot, no source, never seen by the graph. Attachments that are sampled, or copied into.
 #pragma once
 
 #include "core/gpu/gpu.hpp"

@@ -2,11 +2,13 @@
 #include "passes/shadow_map.hpp"
 
 #include "core/base/diagnostic.hpp"
+#include "passes/particles/expansion_choice.hpp"
 #include "passes/particles/frame_uniform.hpp"
 #include "passes/particles/particle_store.hpp"
 #include "passes/particles/pipelines.hpp"
 #include "passes/particles/quad_indices.hpp"
 #include "passes/particles/selection.hpp"
+#include "passes/particles/tiles/tiled_drawing.hpp"
 #include "passes/shadows/light_view.hpp"
 
 #include <fmt/format.h>
@@ -35,12 +37,12 @@ public:
     const rg::SizeSpec square{.kind = rg::SizeSpec::Kind::Fixed, .width = size, .height = size};
     const rg::TextureSpec depth{.format = TextureFormat::Depth32Float, .size = square};
     if (!ids_) {
-      slots.push_back({.name = "map", .access = rg::Access::DepthWrite, .summary = "n / z in the light's view", .makes = depth});
+      slots.push_back({.name = "map", .access = rg::Access::DepthWrite, .summary = "n / z in the light's view", .makes = depth, .copied_into = true});
       return;
     }
     slots.push_back({.name = "map", .access = rg::Access::ColorWrite, .summary = "casters: payload and id, a layer each",
-                     .makes = rg::TextureSpec{.format = TextureFormat::RGBA32Uint, .size = square, .layers = 2}});
-    slots.push_back({.name = "depth", .access = rg::Access::DepthWrite, .summary = "n / z in the light's view", .makes = depth});
+                     .makes = rg::TextureSpec{.format = TextureFormat::RGBA32Uint, .size = square, .layers = 2}, .copied_into = true});
+    slots.push_back({.name = "depth", .access = rg::Access::DepthWrite, .summary = "n / z in the light's view", .makes = depth, .copied_into = true});
   }
 
   void prepare(rg::PassContext&) override {}
@@ -59,6 +61,7 @@ public:
     const gpu::Texture map = context.whole_texture("map");
     const std::size_t light = checked_light(scene);
     placed_ = {};
+    tiled_ = false;
     const std::optional<View> view = light < scene.lights.size()
         ? light_view(scene.bounds, context.frame().get<View>(), scene.lights[light], {map.size().width, map.size().height})
         : std::nullopt;
@@ -112,13 +115,41 @@ private:
     }
     const FrameBlock block = frame_block(scene, info_.view);
     device.queue().write_buffer(frame_buffer_, 0, std::as_bytes(std::span(&block, 1)));
-    placed_ = store.place(scene, info_.view, 1 + store.shadow_maps().number_of(map)); // 0 is the camera's
+    const std::uint32_t slot = 1 + store.shadow_maps().number_of(map); // 0 is the camera's
+    tiled_ = by_tiles(context, scene) && place_tiles(context, scene, store, slot);
+    placed_ = tiled_ ? tiles_.rest() : store.place(scene, info_.view, slot);
     std::uint32_t most = 0;
     for (const ParticleDraw& d : placed_.draws) most = std::max(most, d.particles);
     indices_.reserve(device, most);
   }
 
+  // Whether tiles are the cheapest expansion that can. A map shows only as shadows: what was asked for elsewhere and cannot
+  // draw it is not refused here.
+  bool by_tiles(rg::PassContext& context, const Scene& scene) {
+    const FrameOptions& options = context.frame().get<FrameOptions>();
+    const gpu::Device device = context.device();
+    const ExpansionNeeds needs{device, scene, info_.view, selection_, DrawStates{}, TextureFormat::RGBA32Float, ids_ ? 2u : 0u, "", Phase::Shadow};
+    if (options.expansion != Expansion::Auto) return options.expansion == Expansion::Compute && why_not(Expansion::Compute, needs).empty();
+    return choose_expansion(needs, options, chooser_).expansion == Expansion::Compute;
+  }
+
+  bool place_tiles(rg::PassContext& context, const Scene& scene, const ParticleStore& store, std::uint32_t slot) {
+    TileWish wish{scene, info_.view, selection_, Phase::Shadow, ids_ ? aov_id_bit : 0u, slot};
+    wish.placing.margin = ids_ ? thin_ : 0.0;
+    return tiles_.place(context.device(), store, pipelines_->frame_layout(), wish);
+  }
+
+  void record_tiles(rg::PassContext& context, const gpu::Texture& map) {
+    TileTargets targets{.casters = ids_ ? map : gpu::Texture()};
+    if (!ids_) targets.encoded_depth = map;
+    else if (!placed_.draws.empty() || context.kept("depth")) targets.encoded_depth = context.whole_texture("depth");
+    tiles_.record(context.encoder(), frame_group_, targets, [&](std::string_view stage) { context.mark(stage); });
+  }
+
   void draw(rg::PassContext& context, const gpu::Texture& map) {
+    if (tiled_) record_tiles(context, map);
+    if (tiled_ && placed_.draws.empty()) return;
+    const gpu::LoadOp load = tiled_ ? gpu::LoadOp::Load : gpu::LoadOp::Clear;
     constexpr double none = 4294967295.0;
     std::vector<gpu::TextureView> layers;
     std::vector<gpu::ColorAttachment> colors;
@@ -126,11 +157,11 @@ private:
     for (std::uint32_t i = 0; ids_ && i < 2; ++i)
       layers.push_back(map.create_view({.dimension = gpu::TextureViewDimension::D2, .base_array_layer = i, .array_layer_count = 1}));
     for (const gpu::TextureView& layer : layers) {
-      colors.push_back({.view = &layer, .clear = {none, none, none, none}});
+      colors.push_back({.view = &layer, .load = load, .clear = {none, none, none, none}});
       targets.push_back(map.format());
     }
     const gpu::TextureView depth = context.texture(ids_ ? "depth" : "map");
-    gpu::RenderPass pass = context.encoder().begin_render_pass({.label = "shadow_map", .colors = colors, .depth = gpu::DepthAttachment{.view = &depth}});
+    gpu::RenderPass pass = context.encoder().begin_render_pass({.label = "shadow_map", .colors = colors, .depth = gpu::DepthAttachment{.view = &depth, .load = load}});
     for (const ParticleDraw& particles : placed_.draws) {
       if (!selection_.draws(*particles.batch)) continue;
       if (ids_ && particles.affine)
@@ -163,6 +194,9 @@ private:
   gpu::BindGroup frame_group_;
   QuadIndices indices_;
   PlacedView placed_;
+  TiledDrawing tiles_;
+  bool tiled_{}; // in this frame
+  ExpansionChooser chooser_;
 };
 
 } // namespace

@@ -3,7 +3,6 @@
 
 #include "core/base/diagnostic.hpp"
 #include "core/gpu/points.hpp"
-#include "passes/particles/particle_type.hpp"
 #include "passes/particles/pipelines.hpp"
 #include "passes/particles/tiles/tile_renderer.hpp"
 
@@ -19,7 +18,7 @@ constexpr std::uint32_t widest_tiled = 4096 * tile_size; // corners hold 12 bits
 std::string why_not_type(Expansion expansion, const ExpansionNeeds& needs) {
   for (const Batch& batch : needs.scene.batches) {
     const ParticleType* type = find_particle_type(batch.type);
-    if (needs.selection.draws(batch) && (!type || !supports(*type, expansion, Phase::Opaque)))
+    if (needs.selection.draws(batch) && (!type || !supports(*type, expansion, needs.phase)))
       return fmt::format("particle type '{}' cannot be drawn by expansion '{}'", batch.type, to_string(expansion));
   }
   return {};

@@ -5,6 +5,7 @@
 
 #include "core/gpu/gpu.hpp"
 #include "passes/particles/expansion_cost.hpp"
+#include "passes/particles/particle_type.hpp"
 #include "passes/states.hpp"
 
 #include <string>
@@ -20,7 +21,8 @@ struct ExpansionNeeds {
   const DrawStates& states;
   gpu::TextureFormat color{};
   std::uint32_t aovs{}; // how many are made
-  std::string_view beyond_tiles{}; // what the pass does besides and tiles do not ("shadow maps"); empty: nothing
+  std::string_view beyond_tiles{}; // what the pass does besides and tiles do not ("analytic edges"); empty: nothing
+  Phase phase{Phase::Opaque};      // or Surface, Shadow
 };
 
 // A sentence, or empty: `expansion` can draw it.

@@ -257,7 +257,7 @@ TileDraw near_draw(TileDraw draw) {
 }
 } // namespace
 
-void ParticleStore::place_tiles(const Scene& scene, const View& view, bool exact, TiledView& out, std::uint32_t slot) const {
+void ParticleStore::place_tiles(const Scene& scene, const View& view, const TilePlacing& placing, TiledView& out, std::uint32_t slot) const {
   Impl::Placements& placed = impl_->placements[slot];
   placed.chunks.clear();
   placed.payloads.clear();
@@ -280,8 +280,9 @@ void ParticleStore::place_tiles(const Scene& scene, const View& view, bool exact
         if (added) out.slices.push_back({slice.records, slice.rows, slice.colors});
         chunks.rest.far.clear(), chunks.rest.near.clear(), chunks.rest.payloads.clear();
         place_for_tiles(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler,
-                        static_cast<std::uint32_t>(out.draws.size()), exact, chunks);
+                        {static_cast<std::uint32_t>(out.draws.size()), placing.exact, placing.margin}, chunks);
         out.draws.push_back(tile_draw(batch, k, view, out.materials));
+        if (placing.material) out.draws.back().material = placing.material(batch) & 0xFFFFu;
         out.draws.back().slice = known->second & 0x7FFFu;
         out.draws.back().first_flag = out.flags;
         if (near_before < chunks.near.size()) out.draws.push_back(near_draw(out.draws.back()));

@@ -18,6 +18,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -64,6 +65,13 @@ struct TiledView {
   PlacedView rest{};
 };
 
+// How tiles are to be placed.
+struct TilePlacing {
+  bool exact{};    // depth or normals are asked for
+  double margin{}; // pixels by which particles may be widened
+  std::function<std::uint32_t(const Batch&)> material{}; // a batch's number, where it is not that of TiledView::materials
+};
+
 class ParticleStore {
 public:
   explicit ParticleStore(gpu::Device device);
@@ -77,8 +85,8 @@ public:
   // one for each view that is alive at the same time (camera, lights). Const: placements are a cache.
   // With a `largest_point` (the device's limit, in pixels) chunks that may be drawn as points are draws of their own.
   PlacedView place(const Scene& scene, const View& view, std::uint32_t slot = 0, double largest_point = 0) const;
-  // The same for the compute expansion; `out` keeps its memory between frames. `exact`: depth or normals are asked for.
-  void place_tiles(const Scene& scene, const View& view, bool exact, TiledView& out, std::uint32_t slot = 0) const;
+  // The same for the compute expansion; `out` keeps its memory between frames.
+  void place_tiles(const Scene& scene, const View& view, const TilePlacing& placing, TiledView& out, std::uint32_t slot = 0) const;
 
   [[nodiscard]] const gpu::BindGroupLayout& layout() const; // of set 1
   // What this frame's shadow maps were drawn from.

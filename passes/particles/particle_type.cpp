@@ -44,7 +44,7 @@ std::vector<std::string> particle_type_names() {
 
 bool supports(const ParticleType& type, Expansion expansion, Phase phase) {
   // A tile keeps the nearest surface only; sprites are drawn apart from what does not fit them, so in no one order.
-  if (expansion == Expansion::Compute && phase != Phase::Opaque) return false;
+  if (expansion == Expansion::Compute && phase == Phase::Transparent) return false;
   if (expansion == Expansion::Point && phase != Phase::Opaque && phase != Phase::Surface) return false;
   return std::count(type.expansions.begin(), type.expansions.end(), expansion) > 0 &&
          std::count(type.phases.begin(), type.phases.end(), phase) > 0;

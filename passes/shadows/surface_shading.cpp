@@ -18,11 +18,6 @@ using gpu::TextureFormat;
 
 constexpr std::size_t most_materials = 2048; // whole numbers that a half float holds
 
-struct MaterialRow { // two vec4, as in shaders/shadow/shade.frag
-  glm::vec4 values{0}, model{0};
-  bool operator==(const MaterialRow&) const = default;
-};
-
 std::uint32_t model_of(const Material& m) {
   if (m.specular > 0.0 && m.model == ShadingModel::Phong) return 1;
   return m.specular > 0.0 && m.model == ShadingModel::BlinnPhong ? 2 : 0;
@@ -96,16 +91,21 @@ void SurfaceShading::update(const Scene& scene, const View& view, const std::vec
   frame_key_.masked = !lights.empty();
 }
 
+SurfaceShading::MaterialRow SurfaceShading::row_of(const Material& m) {
+  return {glm::vec4(glm::dvec4(m.ambient, m.diffuse, m.specular, m.exponent)), glm::vec4(static_cast<float>(model_of(m)), 0, 0, 0)};
+}
+
+std::uint32_t SurfaceShading::material_of(const Batch& batch) const {
+  return static_cast<std::uint32_t>(std::find(materials_.begin(), materials_.end(), row_of(batch.material)) - materials_.begin());
+}
+
 void SurfaceShading::make_tables(const Scene& scene, const std::vector<MappedLight>& lights) {
-  std::vector<MaterialRow> rows;
-  material_numbers_.clear();
+  std::vector<MaterialRow>& rows = materials_;
+  rows.clear();
   models_.clear();
   for (const Batch& batch : scene.batches) {
     const Material& m = batch.material;
-    const MaterialRow row{glm::vec4(glm::dvec4(m.ambient, m.diffuse, m.specular, m.exponent)), glm::vec4(static_cast<float>(model_of(m)), 0, 0, 0)};
-    const auto known = std::find(rows.begin(), rows.end(), row);
-    material_numbers_[&batch] = static_cast<std::uint32_t>(known - rows.begin());
-    if (known == rows.end()) rows.push_back(row);
+    if (material_of(batch) == rows.size()) rows.push_back(row_of(m));
     if (std::find(models_.begin(), models_.end(), model_of(m)) == models_.end()) models_.push_back(model_of(m));
   }
   if (rows.size() > most_materials)

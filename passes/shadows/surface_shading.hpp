@@ -30,14 +30,23 @@ public:
   [[nodiscard]] std::vector<gpu::TextureFormat> formats() const; // of attachments(), for the pipelines that draw surfaces
   [[nodiscard]] std::vector<gpu::ColorAttachment> attachments() const; // cleared to "nothing is here"
   [[nodiscard]] bool edges() const { return edges_; }
-  // Number of a batch's material, for BatchBlock::material.x; valid after update() of its scene.
-  [[nodiscard]] std::uint32_t material_of(const Batch& batch) const { return material_numbers_.at(&batch); }
+  // The same, for what tiles leave; all may be copied to.
+  [[nodiscard]] const gpu::Texture& color() const { return color_; }
+  [[nodiscard]] const gpu::Texture& id() const { return id_; }
+  [[nodiscard]] const gpu::Texture& normal_t() const { return normal_t_; }
+  // Number of a batch's material, for BatchBlock::material.x; of batches of the scene that was given to update().
+  [[nodiscard]] std::uint32_t material_of(const Batch& batch) const;
 
   // `colors`: what is shaded into, in slot order (color, then the AOVs of the mask `aovs`); their load operations
   // say what stays where no surface is.
   void record(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame, std::vector<gpu::ColorAttachment> colors, std::uint32_t aovs);
 
 private:
+  struct MaterialRow { // two vec4, as in shaders/shadow/shade.frag
+    glm::vec4 values{0}, model{0};
+    bool operator==(const MaterialRow&) const = default;
+  };
+  static MaterialRow row_of(const Material& material);
   struct Key {
     std::uint32_t aovs{}, light_count{}, specular_model{};
     bool orthographic{}, local_lights{}, masked{};
@@ -60,7 +69,7 @@ private:
   gpu::Buffer tables_;
   gpu::TextureView bound_masks_;
   gpu::BindGroup group_;
-  std::map<const Batch*, std::uint32_t> material_numbers_;
+  std::vector<MaterialRow> materials_; // different ones of the scene
   std::vector<std::uint32_t> models_; // that the scene uses
   // Analytic edges: coverage, the shaded picture, and their pipeline.
   bool edges_;

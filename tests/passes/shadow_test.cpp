@@ -7,6 +7,7 @@
 #include "core/base/diagnostic.hpp"
 #include "core/reference/reference.hpp"
 #include "core/scene/generated.hpp"
+#include "passes/particles/expansion_choice.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +20,7 @@
 namespace mote::test {
 namespace {
 
+using passes::Expansion;
 using testing::HasSubstr;
 
 struct ShadowErrors {
@@ -26,9 +28,17 @@ struct ShadowErrors {
   [[nodiscard]] double wrong() const { return static_cast<double>(false_shadow + false_light) / static_cast<double>(std::max<std::size_t>(facing, 1)); }
 };
 
-class Shadows : public GpuTest {
+// With every way of drawing maps and surfaces: quads, and tiles.
+class Shadows : public GpuTest, public testing::WithParamInterface<Expansion> {
 protected:
   Shadows() { graph_ = "shadowed"; }
+
+  Picture draw(const Scene& scene, const View& view, passes::FrameOptions options = {}, const std::vector<std::string>& settings = {}) {
+    options.expansion = GetParam();
+    options.chosen = [this](const passes::ExpansionReport& report) { tiled_ = report.tiled > 0; };
+    return GpuTest::draw(scene, view, options, settings);
+  }
+  bool tiled_{}; // whether the last picture had tiles
 
   static Light sun(glm::dvec3 direction) {
     return {.name = "sun", .kind = LightKind::Directional, .direction = glm::normalize(direction), .intensity = 0.8, .shadows = true};
@@ -69,7 +79,7 @@ protected:
 };
 
 // A small sphere throws its disc onto a large one: the point under it is dark, one beside it is not.
-TEST_F(Shadows, KnownAnswer) {
+TEST_P(Shadows, KnownAnswer) {
   for (const char* method : {"ids", "depth"}) {
     Scene scene = scene_of({{0, 0, 0, 2}, {0, 5, 0, 0.5}});
     scene.lights = {sun({0, -1, 0})};
@@ -89,7 +99,7 @@ TEST_F(Shadows, KnownAnswer) {
 }
 
 // Depth, id, normal and unshadowed color are what the passes without shadows draw.
-TEST_F(Shadows, AovsAndShadingAreThoseOfTheReference) {
+TEST_P(Shadows, AovsAndShadingAreThoseOfTheReference) {
   Scene scene = cloud(200, 1.4, sun({1, -0.4, -0.3}));
   scene.batches[0].material = {ShadingModel::BlinnPhong, 0.9, 0.8, 0.5, 30.0};
   scene.lights.push_back({.name = "lamp", .kind = LightKind::Point, .position = {20, 20, 20}, .intensity = 0.3});
@@ -107,11 +117,12 @@ TEST_F(Shadows, AovsAndShadingAreThoseOfTheReference) {
 }
 
 // At most one wrong pixel in a thousand, in windows of any shape; false shadow never.
-TEST_F(Shadows, FewPixelsAreWrongInWindowsOfAnyShape) {
+TEST_P(Shadows, FewPixelsAreWrongInWindowsOfAnyShape) {
   const Scene scene = cloud(10000, 0.4, sun({1, -0.35, 0.2}));
   for (const Size2d size : {Size2d{480, 270}, Size2d{270, 480}, Size2d{300, 300}}) {
     const View view = look(scene, {18, 12, 45}, {0, 0, 0}, size);
     const ShadowErrors e = errors(draw(scene, view, {}, {"shadow.size=768"}), scene, view);
+    EXPECT_EQ(tiled_, GetParam() == Expansion::Compute);
     EXPECT_GT(e.facing, 5000u);
     EXPECT_GT(static_cast<double>(e.shadowed), 0.2 * static_cast<double>(e.facing));
     EXPECT_LE(e.wrong(), 1e-3) << e.false_shadow << " false shadow, " << e.false_light << " false light of " << e.facing;
@@ -121,7 +132,7 @@ TEST_F(Shadows, FewPixelsAreWrongInWindowsOfAnyShape) {
 
 // The scene that speed and accuracy are stated for, at the map's default size. MOTE_ACCURACY=full (tests/accuracy.sh)
 // draws it in full-size windows, too.
-TEST_F(Shadows, TheBenchmarkSceneAtTheDefaultSize) {
+TEST_P(Shadows, TheBenchmarkSceneAtTheDefaultSize) {
   const GeneratedSpheres made = generate_spheres(100000, 1);
   std::vector<glm::dvec4> spheres;
   for (std::size_t i = 0; i < made.radii.size(); ++i) spheres.push_back({made.positions[3 * i], made.positions[3 * i + 1], made.positions[3 * i + 2], made.radii[i]});
@@ -138,7 +149,7 @@ TEST_F(Shadows, TheBenchmarkSceneAtTheDefaultSize) {
   }
 }
 
-TEST_F(Shadows, DepthMapsErrLittleAndHaveNoAcne) {
+TEST_P(Shadows, DepthMapsErrLittleAndHaveNoAcne) {
   const Scene scene = cloud(1000, 0.9, sun({1, -0.35, 0.2}));
   const View view = look(scene, {18, 12, 45}, {0, 0, 0}, {320, 240});
   const ShadowErrors soft = errors(draw(scene, view, {}, {"shadow.method=\"depth\"", "shadow.size=2048"}), scene, view);
@@ -150,7 +161,7 @@ TEST_F(Shadows, DepthMapsErrLittleAndHaveNoAcne) {
 }
 
 // One sphere alone never shades itself, up to the limb of light; the same picture without the offset does.
-TEST_F(Shadows, NoAcneAtLimbs) {
+TEST_P(Shadows, NoAcneAtLimbs) {
   Scene scene = scene_of({{0, 0, 0, 3}});
   scene.lights = {sun({1, -0.2, -0.1})};
   const View view = look(scene, {0, 2, 14}, {0, 0, 0}, {300, 300});
@@ -165,7 +176,7 @@ TEST_F(Shadows, NoAcneAtLimbs) {
 
 // Two touching spheres, the light along the line of their centers: the shadow begins at the contact. Its gap is
 // measured in a view that has 500 pixels a radius.
-TEST_F(Shadows, ContactGap) {
+TEST_P(Shadows, ContactGap) {
   Scene scene = scene_of({{0, 0, 0, 1}, {0, 2, 0, 1}});
   scene.lights = {sun({-0.6, -1, 0})};
   const View view = look_orthographic(scene, {0, 1, 40}, {0, 1, 0}, {400, 400}, 0.8);
@@ -184,7 +195,7 @@ TEST_F(Shadows, ContactGap) {
   EXPECT_LT(gap, 0.02);
 }
 
-TEST_F(Shadows, SpotLights) {
+TEST_P(Shadows, SpotLights) {
   Light spot{.name = "spot", .kind = LightKind::Spot, .direction = glm::normalize(glm::dvec3(-1, -1, -0.2)), .position = {22, 22, 5},
              .intensity = 0.8, .inner_angle = 0.3, .outer_angle = 0.4, .shadows = true};
   const Scene scene = cloud(1500, 0.8, spot);
@@ -195,7 +206,7 @@ TEST_F(Shadows, SpotLights) {
 }
 
 // FC-44: a light inside a sphere lights its inner wall only.
-TEST_F(Shadows, LightInsideASphere) {
+TEST_P(Shadows, LightInsideASphere) {
   Scene scene = scene_of({{0, 0, 0, 2}, {0, -6, 0, 2}, {3, -6, 0, 0.4}});
   scene.lights = {{.name = "spot", .kind = LightKind::Spot, .direction = {0, -1, 0}, .position = {0, 0.5, 0}, .intensity = 0.8,
                    .inner_angle = 0.6, .outer_angle = 0.7, .shadows = true}};
@@ -206,7 +217,7 @@ TEST_F(Shadows, LightInsideASphere) {
 }
 
 // A head light stands behind the eye but looks along the view axis: off the axis its shadows are seen.
-TEST_F(Shadows, HeadLight) {
+TEST_P(Shadows, HeadLight) {
   Scene scene = cloud(1500, 0.8, {.name = "head", .kind = LightKind::Headlight, .intensity = 0.8, .shadows = true});
   const View view = look(scene, {0, 0, 30}, {0, 0, 0}, {320, 240}, 50.0);
   const ShadowErrors e = errors(draw(scene, view), scene, view);
@@ -215,7 +226,7 @@ TEST_F(Shadows, HeadLight) {
 }
 
 // FC-43, FC-46: casters thinner than a texel.
-TEST_F(Shadows, CastersBelowATexel) {
+TEST_P(Shadows, CastersBelowATexel) {
   std::vector<glm::dvec4> spheres{{0, 0, 0, 8}};
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> u(-6, 6);
@@ -229,7 +240,7 @@ TEST_F(Shadows, CastersBelowATexel) {
   EXPECT_EQ(e.false_shadow, 0u);
 }
 
-TEST_F(Shadows, TransparentParticlesCastNoneUnlessAsked) {
+TEST_P(Shadows, TransparentParticlesCastNoneUnlessAsked) {
   Scene scene = scene_of({{0, 0, 0, 2}});
   Batch veil = scene_of({{0, 5, 0, 0.5}}).batches[0];
   veil.alpha = 0.5;
@@ -257,14 +268,14 @@ protected:
   }
 };
 
-TEST_F(ShadowMistakes, ALightThatIsNotThere) {
+TEST_P(ShadowMistakes, ALightThatIsNotThere) {
   Scene scene = cloud(10, 0.5, sun({1, 0, 0}));
   EXPECT_EQ(message(scene, {"shadow.light=\"sun\""}), "it was drawn");
   EXPECT_THAT(message(scene, {"shadow.light=\"sum\""}), testing::AllOf(HasSubstr("error P015: the scene has no light named 'sum'"),
                                                                        HasSubstr("Lights: sun."), HasSubstr("Did you mean 'sun'?")));
 }
 
-TEST_F(ShadowMistakes, LightsThatOneMapCannotHold) {
+TEST_P(ShadowMistakes, LightsThatOneMapCannotHold) {
   Scene scene = cloud(10, 0.5, sun({1, 0, 0}));
   scene.lights[0].kind = LightKind::Point;
   EXPECT_THAT(message(scene, {}), testing::AllOf(HasSubstr("error P017"), HasSubstr("'sun' is a point light")));
@@ -273,18 +284,21 @@ TEST_F(ShadowMistakes, LightsThatOneMapCannotHold) {
   EXPECT_THAT(message(scene, {}), testing::AllOf(HasSubstr("error P017"), HasSubstr("85.94 degrees")));
 }
 
-TEST_F(ShadowMistakes, EllipsoidsInAMapOfCasters) {
+TEST_P(ShadowMistakes, EllipsoidsInAMapOfCasters) {
   Scene scene = cloud(10, 0.5, sun({1, 0, 0}));
   scene.batches[0].instances[0].world_from_data[0][0] = 2.0;
   EXPECT_EQ(message(scene, {"shadow.method=\"depth\""}), "it was drawn");
   EXPECT_THAT(message(scene, {}), testing::AllOf(HasSubstr("error P018"), HasSubstr("scaled unevenly"), HasSubstr("method = \"depth\"")));
 }
 
-TEST_F(ShadowMistakes, AMapThatTheDeviceOrMemoryCannotHold) {
+TEST_P(ShadowMistakes, AMapThatTheDeviceOrMemoryCannotHold) {
   const Scene scene = cloud(10, 0.5, sun({1, 0, 0}));
   EXPECT_THAT(message(scene, {"shadow.size=65536"}), testing::AllOf(HasSubstr("shadowed.toml:7:1: error G070: the width of 'shadow.map'"), HasSubstr("65536")));
   EXPECT_THAT(message(scene, {"shadow.size=16384"}), HasSubstr("shadowed.toml:7:1: error G071: 'shadow.map' cannot be made"));
 }
+
+INSTANTIATE_TEST_SUITE_P(, Shadows, testing::Values(Expansion::Vertex, Expansion::Compute), [](const auto& p) { return std::string(to_string(p.param)); });
+INSTANTIATE_TEST_SUITE_P(, ShadowMistakes, testing::Values(Expansion::Vertex, Expansion::Compute), [](const auto& p) { return std::string(to_string(p.param)); });
 
 } // namespace
 } // namespace mote::test

@@ -62,7 +62,7 @@ const gpu::ComputePipeline& TileKernels::kernel(const std::string& name) {
 
 const gpu::ComputePipeline& TileKernels::place(const ParticlePipelineKey& key, bool first_round, bool first_slice) {
   if (auto it = places_.find({key, first_round, first_slice}); it != places_.end()) return it->second;
-  const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(4, key.per_particle_color), gpu::spec(11, (key.aovs & aov_id_bit) != 0),
+  const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(4, key.per_particle_color), gpu::spec(7, key.proxy_slack), gpu::spec(11, (key.aovs & aov_id_bit) != 0),
                              gpu::spec(12, first_round), gpu::spec(17, first_slice)};
   const std::string shader = fmt::format("{}/tiles/place/{}/{}", key.type, lanes(device_), words_);
   return places_.emplace(std::tuple(key, first_round, first_slice), make(shader, binning_pipelines_, constants)).first->second;
@@ -73,7 +73,8 @@ const gpu::ComputePipeline& TileKernels::cast(const CastKey& key, const rg::Pixe
   const ParticlePipelineKey& d = key.drawing;
   const std::array constants{gpu::spec(0, d.orthographic), gpu::spec(1, d.light_count), gpu::spec(2, d.local_lights), gpu::spec(3, d.specular_model),
                              gpu::spec(6, d.head_light_only), gpu::spec(10, d.aovs), gpu::spec(12, key.first_round),
-                             gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth), gpu::spec(16, key.display_only)};
+                             gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth), gpu::spec(16, key.display_only),
+                             gpu::spec(7, d.proxy_slack), gpu::spec(18, static_cast<std::uint32_t>(d.phase))};
   const std::string shader = fmt::format("{}/tiles/cast/{}/{}", d.type, lanes(device_), words_);
   if (!map) return casts_.emplace(key, make(shader, cast_pipelines_, constants)).first->second;
 

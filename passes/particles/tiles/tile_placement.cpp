@@ -11,14 +11,15 @@ namespace {
 // Decides whether tiles serve a box in view space, and which of them it may cover.
 class TileRects {
 public:
-  explicit TileRects(const View& view)
-      : view_(view), perspective_(view.projection == Projection::Perspective),
+  TileRects(const View& view, double margin)
+      : view_(view), margin_(margin / view.focal), perspective_(view.projection == Projection::Perspective),
         offset_(view.sample_offset - view.center()),
         last_(view.size.width - 1.0, view.size.height - 1.0), least_z_(std::max(view.near_cut, view.depth_near) * (1.0 + 1e-5)) {}
 
   // False: not for tiles. Chunks that cover no pixel center have an empty rectangle: `any` is false.
   bool place(const PlacedBox& box, double radius, TileChunk& out, bool& any) const {
-    const double slack = 1e-6 * glm::length(box.center);
+    const double widened = margin_ * (perspective_ ? box.center.z + box.extent.z : 1.0), slack = 1e-6 * glm::length(box.center) + widened;
+    radius += widened;
     const double z_min = box.center.z - box.extent.z - slack, z_max = box.center.z + box.extent.z + slack;
     if (z_min < least_z_ || (view_.far_cut > 0 && z_max > view_.far_cut)) return false;
     const glm::dvec2 lo = glm::dvec2(box.center - box.extent) - slack, hi = glm::dvec2(box.center + box.extent) + slack;
@@ -53,6 +54,7 @@ private:
   }
 
   const View& view_;
+  double margin_; // tangents
   bool perspective_;
   glm::dvec2 offset_, last_;
   double least_z_;
@@ -74,15 +76,15 @@ void add_near(const ChunkSet& set, std::uint64_t chunk, const ChunkPlacer& place
 namespace {
 
 void place_range(const ChunkSet& set, std::uint64_t first, std::uint64_t begin, std::uint64_t end, const ChunkPlacer& placer, const TileRects& rects,
-                 std::uint32_t draw, bool exact, PlacedForTiles& out) {
+                 const TilePlacement& how, PlacedForTiles& out) {
   PlacedBox box;
   TileChunk tiled;
-  tiled.draw = draw;
+  tiled.draw = how.draw;
   for (std::uint64_t i = begin; i < end; ++i) {
     if (!placer.place(set.chunks[first + i], box)) continue;
     bool any = false;
     const double radius = placer.scale() * double{set.chunks[first + i].max_radius};
-    if (!placer.similar() || !rects.place(box, radius, tiled, any) || (box.near && (exact || box.distance < 2 * radius))) {
+    if (!placer.similar() || !rects.place(box, radius, tiled, any) || (box.near && (how.exact || box.distance < 2 * radius))) {
       placer.add(set, first + i, i, box, out.rest);
     } else if (any && box.near) {
       add_near(set, first + i, placer, box, tiled, out);
@@ -113,15 +115,15 @@ constexpr std::uint64_t chunks_per_thread = 4096;
 } // namespace
 
 void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance, const View& view,
-                     const ViewCuller& culler, std::uint32_t draw, bool exact, PlacedForTiles& out) {
+                     const ViewCuller& culler, const TilePlacement& how, PlacedForTiles& out) {
   const ChunkPlacer placer(instance, view, culler);
-  const TileRects rects(view);
+  const TileRects rects(view, how.margin);
   const std::uint32_t parts = thread_count(count, chunks_per_thread);
-  if (parts == 1) return place_range(set, first, 0, count, placer, rects, draw, exact, out);
+  if (parts == 1) return place_range(set, first, 0, count, placer, rects, how, out);
   std::vector<PlacedForTiles> own(parts);
   parallel_parts(count, parts, [&](std::uint32_t part, std::uint64_t begin, std::uint64_t end) {
     own[part].tiled.reserve(end - begin);
-    place_range(set, first, begin, end, placer, rects, draw, exact, own[part]);
+    place_range(set, first, begin, end, placer, rects, how, own[part]);
   });
   for (PlacedForTiles& part : own) append(out, part);
 }

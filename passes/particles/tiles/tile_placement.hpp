@@ -5,7 +5,7 @@
 // Tiles serve chunks that lie wholly behind the eye's and the near plane and not beyond the far cut. Of those near the eye,
 // where float32 placement would show in the depth, the particles are placed here one by one, in double. What is so near that
 // the intersection would need more than its plain form (nearer than the diameter of a particle) is given back with the rest,
-// to be drawn by a raster expansion; few chunks are. Where depth or normals are asked for (`exact`), that is everything near.
+// to be drawn by a raster expansion; few chunks are. Where depth or normals are asked for, that is everything near.
 #pragma once
 
 #include "passes/particles/placement.hpp"
@@ -22,8 +22,14 @@ struct PlacedForTiles {
   std::vector<std::uint32_t> near_rows{}, near_colors{};
 };
 
-// Appends those of the chunks [first, first + count) of an instance that the view may see. `draw` goes into TileChunk.
+struct TilePlacement {
+  std::uint32_t draw{};  // goes into TileChunk
+  bool exact{};          // depth or normals are asked for
+  double margin{};       // pixels by which particles may be widened
+};
+
+// Appends those of the chunks [first, first + count) of an instance that the view may see.
 void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance, const View& view,
-                     const ViewCuller& culler, std::uint32_t draw, bool exact, PlacedForTiles& out);
+                     const ViewCuller& culler, const TilePlacement& how, PlacedForTiles& out);
 
 } // namespace mote::passes

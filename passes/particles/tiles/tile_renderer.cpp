@@ -17,6 +17,7 @@ constexpr std::uint32_t most_capacity = 1u << 21;     // entries of a round: 24 
 static_assert((most_capacity / 256 + 1) * chunk_capacity <= 1u << 20); // place_bits of work.glsl
 constexpr float last_depth_step = 4095;               // as in work.glsl
 constexpr float infinitely_far = 3e38f;               // as in cast.comp
+constexpr std::uint32_t no_caster = 0xFFFFFFFFu;      // every word of a texel without one
 constexpr std::uint32_t infinity_bits = 0x7F800000u;
 constexpr std::uint32_t workgroup = 64;               // of all kernels but cast
 
@@ -92,7 +93,7 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.indirect, "tiles.indirect", arguments_.size() * 4, Usage::Indirect | Usage::CopyDst);
   reserve(b.payloads, "tiles.payloads", places * payload, storage);
   reserve(b.colors, "tiles.colors", places * 8, storage);
-  reserve(b.ids, "tiles.ids", targets.id ? places * 4 : 0, storage);
+  reserve(b.ids, "tiles.ids", targets.id || targets.casters ? places * 4 : 0, storage);
   tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 12ull, storage) || tiles_fresh_;
   reserve(b.far, "tiles.far", plan_.cells * 4ull, storage);
   reserve(b.active, "tiles.active", plan_.level1 * 4ull, storage);
@@ -103,7 +104,7 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.encoded, "tiles.encoded_depth", targets.encoded_depth ? pixels * 4 : 0, storage);
   reserve(b.depth, "tiles.depth", targets.depth ? pixels * 4 : 0, storage);
   reserve(b.id, "tiles.id", targets.id ? pixels * 4 : 0, storage);
-  reserve(b.normal, "tiles.normal", targets.normal ? pixels * 16 : 0, storage);
+  reserve(b.normal, "tiles.normal", targets.normal || targets.casters ? pixels * 16 : 0, storage);
 }
 
 void TileRenderer::make_groups(const TiledView& view) {
@@ -137,6 +138,11 @@ void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& target
   if (targets.depth) encoder.clear_buffer(b.depth, 0, 0, infinity_bits);
   if (targets.id) encoder.clear_buffer(b.id, 0, 0, 0xFFFFFFFFu);
   if (targets.normal) encoder.clear_buffer(b.normal);
+  if (targets.casters) {
+    encoder.clear_buffer(b.normal, 0, 0, no_caster);
+    encoder.clear_buffer(b.color, 0, 0, no_caster);
+  }
+  if (!targets.color) return;
 
   const gpu::Color background = targets.map ? targets.map->apply(targets.background) : targets.background;
   const std::vector<std::uint32_t> words = background_words(background, color_words_);
@@ -228,13 +234,17 @@ void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& tar
   copy(buffers_.depth, targets.depth);
   copy(buffers_.id, targets.id);
   copy(buffers_.normal, targets.normal);
+  if (!targets.casters) return;
+  encoder.copy_buffer_to_texture({.buffer = &buffers_.normal}, {.texture = &targets.casters}, size);
+  encoder.copy_buffer_to_texture({.buffer = &buffers_.color}, {.texture = &targets.casters, .origin = {0, 0, 1}}, size);
 }
 
 void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& drawing,
                           const TileTargets& targets, const Mark& mark) {
-  color_words_ = words_of(targets.color.format());
+  color_words_ = targets.color ? words_of(targets.color.format()) : targets.casters ? 4 : 0;
   CastKey key{.drawing = drawing, .first_round = true, .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
-              .display_only = color_words_ == 1 && drawing.aovs == 0 && !targets.encoded_depth, .color_words = color_words_,
+              .display_only = color_words_ == 1 && drawing.aovs == 0 && !targets.encoded_depth && drawing.phase == Phase::Opaque,
+              .color_words = color_words_,
               .pixel_map = targets.map ? targets.map->id : std::string()};
   reserve_frame(drawing, targets);
   make_groups(view);

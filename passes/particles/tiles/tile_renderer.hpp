@@ -19,8 +19,10 @@
 namespace mote::passes {
 
 // Where pictures go: textures that may be copied to; an invalid one is left out. All of the view's size.
+// Phase Surface: color, id and normal are those of SurfaceShading. Phase Shadow: casters, or encoded_depth alone.
 struct TileTargets {
   gpu::Texture color{}, encoded_depth{}, depth{}, id{}, normal{};
+  gpu::Texture casters{};          // as shadows/shadow_maps.hpp says: payloads and ids, a layer each
   gpu::Color background{};         // scene-linear
   const rg::PixelMap* map{};       // applied to colors and background; `color` is then what the map's pass would write
   std::string cache_directory{};   // of SPIR-V; empty: none
@@ -34,7 +36,7 @@ public:
 
   // Uploads; before the encoder's passes. Sorts view.chunks by depth. `view` must live until record().
   void update(TiledView& view, std::uint32_t width, std::uint32_t height);
-  // Records everything, the copies to the targets included. `key`: the scene's needs; type and aovs filled in.
+  // Records everything, the copies to the targets included. `key`: the scene's needs; type, phase and aovs filled in.
   // `mark` is told the end of each stage.
   using Mark = std::function<void(std::string_view stage)>;
   void record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& key,

@@ -134,10 +134,15 @@ vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) {
 #endif
 
 #ifdef TILES
+// Casters of a shadow map that are thinner than a texel are widened to own the texels beside them, too.
+float tile_radius(Particle p) {
+  return proxy_slack > 0.0 ? max(p.radius, proxy_slack * frame.viewport.w * (orthographic ? 1.0 : p.center.z)) : p.radius;
+}
+
 // The rectangle in tangents of a sphere wholly before the eye: roots of (z^2 - r^2) h^2 - 2 x z h + (x^2 - r^2) = 0, to a
 // thousandth of a pixel, where proxy() has more bits and cuts at the near plane.
 Proxy tile_proxy(Particle p) {
-  float r = p.radius;
+  float r = tile_radius(p);
   if (orthographic) return Proxy(p.center.xy - r, p.center.xy + r, p.center.z - r);
   float z = p.center.z;
   vec2 half_extent = r * sqrt(p.center.xy * p.center.xy + (z - r) * (z + r));
@@ -153,7 +158,7 @@ Proxy tile_proxy(Particle p) {
 struct TileTest { vec4 a, b, c; };
 
 TileTest tile_test(Particle p, bool alive) {
-  float z = p.center.z, r2 = p.radius * p.radius;
+  float z = p.center.z, r = tile_radius(p), r2 = r * r;
   if (orthographic) return TileTest(vec4(p.center.xy, alive ? r2 : -1e30, z), vec4(0.0, 0.0, -1.0, -1.0), vec4(0.0));
   vec2 m = p.center.xy / z;
   float A = 1.0 + dot(m, m), z2 = z * z;

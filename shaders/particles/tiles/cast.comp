@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Casts one tile: 8x8 pixels against the particles filed under it, nearest wins, then shades what won.
+// Casts one tile: 8x8 pixels against the particles filed under it, nearest wins; then what won is shaded, or left as a
+// surface to be shaded later, or as the caster of a shadow map's texel.
 //
 // A workgroup is one subgroup of LANES invocations (LANES is at most the device's smallest subgroup); each owns
 // 64 / LANES pixels in registers. LANES particles are loaded at a time, one an invocation, and broadcast one by one.
@@ -29,8 +30,9 @@ const int pixels = 64 / LANES; // of one invocation
 layout(constant_id = 10) const uint aovs = 0u;           // bits: 1 depth, 2 id, 4 normal
 layout(constant_id = 12) const bool first_round = false; // nothing was cast before in this frame
 layout(constant_id = 13) const bool one_material = true; // of all batches: StepBlock.material
-layout(constant_id = 14) const uint color_words = 2u;    // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float
+layout(constant_id = 14) const uint color_words = 2u;    // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float; 0: no color
 layout(constant_id = 15) const bool want_depth = false;  // the encoded depth, for passes that draw after this one
+layout(constant_id = 18) const int phase = 0;            // 0 opaque, 1 surface, 3 shadow, as in phase/surface.frag and phase/shadow.frag
 layout(constant_id = 16) const bool display_only = false; // colors of 8 bits are all that is asked for: normals may err by 1e-4
 
 layout(std430, set = 1, binding = 0) readonly buffer Materials { vec4 materials[]; };
@@ -46,7 +48,7 @@ layout(std430, set = 1, binding = 9) writeonly buffer OutColor { uint out_color[
 layout(std430, set = 1, binding = 10) writeonly buffer OutEncoded { float out_encoded[]; };
 layout(std430, set = 1, binding = 11) writeonly buffer OutDepth { float out_depth[]; };
 layout(std430, set = 1, binding = 12) writeonly buffer OutId { uint out_id[]; };
-layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { vec4 out_normal[]; };
+layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { vec4 out_normal[]; }; // surface: and depth; shadow: payload
 layout(std430, set = 1, binding = 14) writeonly buffer OutColorPairs { PAIR out_color_pairs[]; }; // the wider formats
 
 const float infinitely_far = 3e38; // what `nearest` is filled with before a frame
@@ -90,8 +92,7 @@ float farthest_depth(float farthest_key, float least_ray2) {
   return farthest >= infinitely_far ? uintBitsToFloat(0x7F800000u) : farthest / least_ray2 * (1.0 + 2e-6);
 }
 
-void write_color(uint at, vec3 linear) {
-  vec4 color = map_pixel(vec4(linear, 1.0));
+void write_color(uint at, vec4 color) {
   if (color_words == 1u) {
     // The shuffle keeps the packing out of the store's loop over lanes.
     out_color[at] = subgroupShuffle(packUnorm4x8(color), gl_SubgroupInvocationID);
@@ -154,7 +155,24 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, uint winner) {
   }
   vec4 material = u.material;
   if (!one_material) material = materials[packed_color.y >> 16];
-  vec3 color;
+  vec3 color = own;
+  if (phase != 0) {
+    if (!changed) return;
+    nearest[at] = pixel_key;
+    if (want_depth) out_encoded[at] = encode_depth(t);
+    if (phase == 1) {
+      write_color(at, vec4(own, float(packed_color.y >> 16)));
+      out_id[at] = placed_ids[who];
+      out_normal[at] = vec4(normal, t);
+    } else if (color_words != 0u) {
+      vec4 payload[payload_vec4s];
+      pack(particle, payload);
+      out_normal[at] = payload[0];
+      out_color_pairs[2u * at] = pair(uvec2(placed_ids[who], 0u));
+      out_color_pairs[2u * at + 1u] = pair(uvec2(0u));
+    }
+    return;
+  }
   if (head_light_only) {
     vec3 ambient = one_material ? u.ambient : material.x * u.ambient, light = one_material ? u.head_light : material.y * u.head_light;
     color = own * (ambient + max(-normal.z, 0.0) * light);
@@ -163,7 +181,7 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, uint winner) {
   }
   if (!changed) return;
   nearest[at] = pixel_key;
-  write_color(at, color);
+  write_color(at, map_pixel(vec4(color, 1.0)));
   if (want_depth) out_encoded[at] = encode_depth(t);
   if ((aovs & 1u) != 0u) out_depth[at] = t;
   if ((aovs & 2u) != 0u) out_id[at] = placed_ids[who];

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "passes/particles/tiles/tiled_drawing.hpp"
+
+#include <algorithm>
+
+namespace mote::passes {
+
+// The scene without the batches that are not the pass's.
+const Scene& TiledDrawing::selected(const Scene& scene, const Selection& selection) {
+  const auto mine = [&](const Batch& batch) { return selection.draws(batch); };
+  if (std::all_of(scene.batches.begin(), scene.batches.end(), mine)) return scene;
+  selected_ = scene;
+  std::erase_if(selected_.batches, [&](const Batch& batch) { return !mine(batch); });
+  return selected_;
+}
+
+bool TiledDrawing::place(gpu::Device device, const ParticleStore& store, const gpu::BindGroupLayout& frame, const TileWish& wish) {
+  const Scene& scene = selected(wish.scene, wish.selection);
+  store.place_tiles(scene, wish.view, wish.placing, tiled_, wish.slot);
+  if (tiled_.chunks.empty()) return false;
+  if (!tiles_) tiles_ = std::make_unique<TileRenderer>(std::move(device), frame);
+  tiles_->update(tiled_, wish.view.size.width, wish.view.size.height);
+  bool mixed = false;
+  key_ = key_for_all(scene, wish.view, mixed); // never mixed: why_not() has looked
+  key_.aovs = wish.aovs;
+  key_.phase = wish.phase;
+  key_.proxy_slack = static_cast<float>(wish.placing.margin);
+  if (wish.phase != Phase::Opaque) unlit(key_);
+  if (wish.phase == Phase::Shadow) key_.per_particle_color = false;
+  return true;
+}
+
+void TiledDrawing::record(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const TileTargets& targets, const TileRenderer::Mark& mark) {
+  tiles_->record(encoder, tiled_, frame_group, key_, targets, mark);
+}
+
+} // namespace mote::passes

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What a pass needs to draw by the compute expansion: places a scene's chunks for one view, and draws those that tiles serve.
+// What they do not serve is left in rest(), for the pass to draw on top by a raster expansion.
+//
+//   if (drawing.place(device, store, frame_layout, wish))       // something is for tiles
+//     drawing.record(encoder, frame_group, targets, mark);
+//
+// Whether tiles can draw the scene at all is asked before (expansion_choice.hpp).
+#pragma once
+
+#include "passes/particles/particle_store.hpp"
+#include "passes/particles/selection.hpp"
+#include "passes/particles/tiles/tile_renderer.hpp"
+
+#include <memory>
+
+namespace mote::passes {
+
+struct TileWish {
+  const Scene& scene;
+  const View& view;
+  const Selection& selection;
+  Phase phase{Phase::Opaque};  // or Surface, Shadow
+  std::uint32_t aovs{};        // that are made; phase Surface makes its own
+  std::uint32_t slot{};        // of the store's placements
+  TilePlacing placing{};
+};
+
+class TiledDrawing {
+public:
+  // False: nothing in view is for tiles; rest() then holds everything.
+  bool place(gpu::Device device, const ParticleStore& store, const gpu::BindGroupLayout& frame, const TileWish& wish);
+  void record(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const TileTargets& targets, const TileRenderer::Mark& mark);
+  [[nodiscard]] const PlacedView& rest() const { return tiled_.rest; }
+  [[nodiscard]] std::size_t chunks() const { return tiled_.chunks.size(); }
+
+private:
+  const Scene& selected(const Scene& scene, const Selection& selection);
+
+  std::unique_ptr<TileRenderer> tiles_;
+  TiledView tiled_;
+  ParticlePipelineKey key_;
+  Scene selected_; // alive while its draws are recorded
+};
+
+} // namespace mote::passes
