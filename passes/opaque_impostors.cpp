@@ -94,19 +94,21 @@ public:
     choose(context);
     const Expansion expansion = report_.choice.expansion;
     const double largest_point = expansion == Expansion::Point ? double{gpu::max_point_size(device)} : 0.0;
-    if (deferred_) update_surfaces(context, surfaces_, false);
+    find_lights(context);
+    surfaces_first_ = deferred_;
     const bool tiled = expansion == Expansion::Compute && place_tiles(context, store);
+    if (surfaces_first_ && expansion != Expansion::Compute) update_surfaces(context, surfaces_, false);
     placed_ = tiled ? tiled_.rest() : store.place(scene, view, 0, largest_point);
     report_.tiled = tiled ? tiled_.chunks() : 0;
     report_.rastered = placed_.chunks_placed;
     if (const auto& chosen = context.frame().get<FrameOptions>().chosen) chosen(report_);
     if (tiled) record_tiles(context);
+    if (tiled && !surfaces_first_ && placed_.draws.empty()) return;
     raster_ = expansion == Expansion::Geometry ? expansion : Expansion::Vertex;
     reserve_indices(device, placed_);
     if (offsets_.size() > 1) return record_samples(context);
     if (analytic_edges_) return record_edges(context);
-    if (deferred_) return draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_.get(), tiled);
-    if (tiled && placed_.draws.empty()) return;
+    if (surfaces_first_) return draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_.get(), tiled);
     gpu::RenderPass pass = context.begin_attachments(tiled);
     draw_particles(context, pass, placed_, {frame_group_, targets_, aovs_}, nullptr);
     pass.end();
@@ -118,16 +120,28 @@ public:
   }
 
 private:
-  // False: nothing in view is for tiles.
+  // False: nothing in view is for tiles. Shadows are asked where tiles are cast, unless something is left for quads, which
+  // do not know them, or the maps are beyond what a cast can hold: then tiles leave surfaces, as quads do.
   bool place_tiles(rg::PassContext& context, const ParticleStore& store) {
     TileWish wish{context.frame().get<Scene>(), context.frame().get<View>(), selection_, Phase::Opaque, aovs_};
     wish.placing.exact = aovs_ != 0 || context.kept("depth");
-    if (deferred_) {
+    const auto place = [&] { return tiled_.place(context.device(), store, pipelines_->frame_layout(), wish); };
+    if (deferred_ && TileShadows::can_hold(lights_)) {
+      const bool tiled = place();
+      surfaces_first_ = !tiled_.rest().draws.empty();
+      if (!surfaces_first_) {
+        if (!tile_shadows_) tile_shadows_ = std::make_unique<TileShadows>(context.device());
+        tile_shadows_->update(lights_, wish.view);
+        return tiled;
+      }
+    }
+    if (surfaces_first_) {
+      update_surfaces(context, surfaces_, false);
       wish.phase = Phase::Surface;
       wish.aovs = aov_id_bit;
       wish.placing.material = [this](const Batch& batch) { return surfaces_->material_of(batch); };
     }
-    return tiled_.place(context.device(), store, pipelines_->frame_layout(), wish);
+    return place();
   }
 
   void record_tiles(rg::PassContext& context) {
@@ -138,7 +152,8 @@ private:
                         .id = context.whole_texture("aov_id"),
                         .normal = context.whole_texture("aov_normal"),
                         .background = clear_value("color", context.frame())};
-    if (deferred_) {
+    if (deferred_ && !surfaces_first_) targets.shadows = tile_shadows_.get();
+    if (surfaces_first_) {
       targets = {.color = surfaces_->color(), .encoded_depth = targets.encoded_depth, .id = surfaces_->id(), .normal = surfaces_->normal_t()};
     } else if (const auto next = draw_on ? std::nullopt : context.successor("color"); next && TileRenderer::works(context.device(), next->target.format())) {
       const DisplaySettings* display = context.frame().find<DisplaySettings>();
@@ -237,18 +252,21 @@ private:
 
   void update_surfaces(rg::PassContext& context, std::unique_ptr<SurfaceShading>& surfaces, bool edges) {
     if (!surfaces) surfaces = std::make_unique<SurfaceShading>(context.device(), pipelines_->frame_layout(), edges);
+    surfaces->update(context.frame().get<Scene>(), context.frame().get<View>(), lights_);
+  }
+
+  void find_lights(const rg::PassContext& context) {
     const ShadowMaps& maps = context.frame().get<ParticleStore>().shadow_maps();
-    std::vector<MappedLight> lights;
+    lights_.clear();
     for (const std::string& slot : shadow_slots_)
       if (const gpu::Texture map = context.connected(slot) ? context.whole_texture(slot) : gpu::Texture())
-        if (const ShadowMapInfo* info = maps.find(map)) lights.push_back({map, *info});
-    surfaces->update(context.frame().get<Scene>(), context.frame().get<View>(), lights);
+        if (const ShadowMapInfo* info = maps.find(map)) lights_.push_back({map, *info});
   }
 
   // Depth and AOVs are those of the pixel's center, from a picture of their own, if anybody looks at them.
   void record_center(rg::PassContext& context) {
     if (aovs_ != 0 || context.kept("depth"))
-      draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), deferred_ ? surfaces_.get() : nullptr);
+      draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_first_ ? surfaces_.get() : nullptr);
   }
 
   void record_edges(rg::PassContext& context) {
@@ -277,7 +295,7 @@ private:
       if (i == sample_frames_.size()) sample_frames_.push_back(make_frame(device));
       const FrameBlock block = frame_block(scene, view);
       device.queue().write_buffer(sample_frames_[i].first, 0, std::as_bytes(std::span(&block, 1)));
-      draw_picture(context, sample_frames_[i].second, picture, 0, accumulator_->depth(), deferred_ ? surfaces_.get() : nullptr);
+      draw_picture(context, sample_frames_[i].second, picture, 0, accumulator_->depth(), surfaces_first_ ? surfaces_.get() : nullptr);
       accumulator_->add(context.encoder(), i == 0);
     }
     accumulator_->resolve(context.encoder(), color);
@@ -321,7 +339,10 @@ private:
   Selection selection_;
   DrawStates states_;
   std::vector<std::string> shadow_slots_;
-  bool deferred_{}; // a shadow map is connected: surfaces first, shaded once
+  bool deferred_{}; // a shadow map is connected
+  bool surfaces_first_{}; // in this frame: particles leave surfaces, which are shaded once
+  std::vector<MappedLight> lights_;
+  std::unique_ptr<TileShadows> tile_shadows_;
   Expansion raster_{Expansion::Vertex}; // of what is not drawn in tiles
   std::vector<TextureFormat> targets_;
   TextureFormat depth_{};

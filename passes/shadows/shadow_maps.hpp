@@ -5,8 +5,8 @@
 //
 // Texel of a map of method `ids`: rgba32uint, two layers; an expansion of any kind may produce it.
 //   layer 0  bits of the caster's first payload vec4 in the light's view space (sphere: center, radius)
-//   layer 1  x: the caster's id; yzw: 0
-// The caster is the nearest to the light at the texel's center. No caster: 0xFFFFFFFF in every word.
+//   layer 1  x: the caster's id; yzw: nothing
+// The caster is the nearest to the light at the texel's center. No caster: 0xFFFFFFFF in every word that is something.
 // A map of method `depth` is a depth texture of n / z in the light's view (orthographic: z counts from
 // the view's eye plane), 0 where nothing is.
 #pragma once

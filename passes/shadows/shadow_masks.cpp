@@ -14,13 +14,13 @@ namespace {
 
 using gpu::BindingType, gpu::SampleType, gpu::ShaderStage, gpu::TextureFormat;
 
-struct ShadowBlock { // std140, as in shaders/shadow/receiver.glsl
-  std::array<glm::vec4, 3> light_from_view{};
-  glm::vec4 offset{0}, map{0}, bias{0};
-};
+gpu::BindGroupLayoutEntry texture_entry(std::uint32_t binding, SampleType type, gpu::TextureViewDimension dimension = gpu::TextureViewDimension::D2) {
+  return {.binding = binding, .visibility = ShaderStage::Fragment, .type = BindingType::SampledTexture, .sample_type = type, .view_dimension = dimension};
+}
 
-// Formed in double and rounded once, like all changes of space.
-ShadowBlock block_of(const ShadowMapInfo& info, const View& camera) {
+} // namespace
+
+ShadowBlock shadow_block(const ShadowMapInfo& info, const View& camera) {
   ShadowBlock block;
   const glm::dmat3 turn = info.view.rotation * glm::transpose(camera.rotation);
   for (int i = 0; i < 3; ++i) block.light_from_view[static_cast<std::size_t>(i)] = glm::vec4(glm::vec3(turn[i]), 0.0f);
@@ -29,12 +29,6 @@ ShadowBlock block_of(const ShadowMapInfo& info, const View& camera) {
   block.bias.x = static_cast<float>(info.normal_offset * (info.pcf + std::sqrt(0.5)));
   return block;
 }
-
-gpu::BindGroupLayoutEntry texture_entry(std::uint32_t binding, SampleType type, gpu::TextureViewDimension dimension = gpu::TextureViewDimension::D2) {
-  return {.binding = binding, .visibility = ShaderStage::Fragment, .type = BindingType::SampledTexture, .sample_type = type, .view_dimension = dimension};
-}
-
-} // namespace
 
 ShadowMasks::ShadowMasks(gpu::Device device, const gpu::BindGroupLayout& frame_layout) : device_(std::move(device)) {
   const std::array surface{texture_entry(0, SampleType::Uint), texture_entry(1, SampleType::UnfilterableFloat)};
@@ -63,7 +57,7 @@ void ShadowMasks::update(const std::vector<MappedLight>& lights, const View& cam
   for (std::uint32_t i = 0; i < count; ++i) {
     Layer& layer = layers_[i];
     const ShadowMapInfo& info = lights[i].info;
-    const ShadowBlock block = block_of(info, camera);
+    const ShadowBlock block = shadow_block(info, camera);
     if (!layer.block)
       layer.block = device_.create_buffer({.label = "shadow.block", .size = sizeof block, .usage = gpu::BufferUsage::Uniform | gpu::BufferUsage::CopyDst});
     device_.queue().write_buffer(layer.block, 0, std::as_bytes(std::span(&block, 1)));

@@ -8,6 +8,9 @@
 #include "core/scene/scene.hpp"
 #include "passes/shadows/shadow_maps.hpp"
 
+#include <glm/glm.hpp>
+
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,6 +21,14 @@ struct MappedLight {
   gpu::Texture map{};
   ShadowMapInfo info{};
 };
+
+// How a light's space follows from the camera's; std140, as in shaders/shadow/receiver.glsl and lit.glsl.
+struct ShadowBlock {
+  std::array<glm::vec4, 3> light_from_view{};
+  glm::vec4 offset{0}, map{0}, bias{0};
+};
+// Formed in double and rounded once, like all changes of space.
+ShadowBlock shadow_block(const ShadowMapInfo& info, const View& camera);
 
 class ShadowMasks {
 public:

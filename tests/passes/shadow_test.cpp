@@ -195,6 +195,16 @@ TEST_P(Shadows, ContactGap) {
   EXPECT_LT(gap, 0.02);
 }
 
+// The eye within the cloud: what is near it is no matter for tiles, and shadows are asked of the surfaces that all leave.
+TEST_P(Shadows, FromWithinTheCloud) {
+  const Scene scene = cloud(800, 0.5, sun({1, -0.35, 0.2}));
+  const View view = look(scene, {-5.3, 0.2, 0.1}, {5, 1, 2}, {320, 240}, 60.0);
+  const ShadowErrors e = errors(draw(scene, view, {}, {"shadow.size=2048"}), scene, view);
+  EXPECT_GT(e.shadowed, 5000u);
+  EXPECT_GT(e.facing, e.shadowed + 5000u);
+  EXPECT_LE(e.wrong(), 1e-3) << e.false_shadow << " false shadow, " << e.false_light << " false light of " << e.facing;
+}
+
 TEST_P(Shadows, SpotLights) {
   Light spot{.name = "spot", .kind = LightKind::Spot, .direction = glm::normalize(glm::dvec3(-1, -1, -0.2)), .position = {22, 22, 5},
              .intensity = 0.8, .inner_angle = 0.3, .outer_angle = 0.4, .shadows = true};
@@ -203,6 +213,33 @@ TEST_P(Shadows, SpotLights) {
   const ShadowErrors e = errors(draw(scene, view), scene, view);
   EXPECT_GT(e.shadowed, 500u);
   EXPECT_LE(e.wrong(), 1e-3) << e.false_shadow << " false shadow, " << e.false_light << " false light of " << e.facing;
+}
+
+// Each light asks its own map: with the other's intensity 0, shadows are those of the one that is left.
+TEST_P(Shadows, TwoLightsAMapEach) {
+  graph_ = "../../tests/passes/two_shadows";
+  Scene scene = cloud(1500, 0.8, sun({1, -0.35, 0.2}));
+  scene.lights.push_back({.name = "lamp", .kind = LightKind::Point, .position = {20, 20, 20}, .intensity = 0.1});
+  scene.lights.push_back({.name = "spot", .kind = LightKind::Spot, .direction = glm::normalize(glm::dvec3(-1, -1, -0.2)), .position = {22, 22, 5},
+                          .intensity = 0.8, .inner_angle = 0.3, .outer_angle = 0.4, .shadows = true});
+  const View view = look(scene, {18, 12, 45}, {0, 0, 0}, {320, 240});
+  const Picture both = draw(scene, view);
+  EXPECT_EQ(tiled_, GetParam() == Expansion::Compute);
+  for (const std::size_t other : {0u, 2u}) {
+    Scene one = scene;
+    one.lights[other].intensity = 0.0;
+    const ShadowErrors e = errors(draw(one, view), one, view);
+    EXPECT_GT(e.shadowed, 500u);
+    EXPECT_LE(e.wrong(), 1e-3) << e.false_shadow << " false shadow, " << e.false_light << " false light of " << e.facing;
+  }
+  const ReferencePicture truth = render_reference(scene, view);
+  std::size_t off = 0, hits = 0;
+  for (std::size_t i = 0; i < truth.id.size(); ++i) {
+    if (truth.id[i] == reference_no_id || truth.ambiguous[i]) continue;
+    ++hits;
+    off += std::abs(both.color[i].g - truth.color[i].g) > 4e-3;
+  }
+  EXPECT_LE(static_cast<double>(off), 1e-3 * static_cast<double>(hits)) << "of " << hits;
 }
 
 // FC-44: a light inside a sphere lights its inner wall only.

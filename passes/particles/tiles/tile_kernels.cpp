@@ -68,24 +68,36 @@ const gpu::ComputePipeline& TileKernels::place(const ParticlePipelineKey& key, b
   return places_.emplace(std::tuple(key, first_round, first_slice), make(shader, binning_pipelines_, constants)).first->second;
 }
 
-const gpu::ComputePipeline& TileKernels::cast(const CastKey& key, const rg::PixelMap* map, const std::string& cache_directory) {
+const gpu::ComputePipeline& TileKernels::cast(const CastKey& key, const Besides& besides) {
   if (auto it = casts_.find(key); it != casts_.end()) return it->second;
   const ParticlePipelineKey& d = key.drawing;
-  const std::array constants{gpu::spec(0, d.orthographic), gpu::spec(1, d.light_count), gpu::spec(2, d.local_lights), gpu::spec(3, d.specular_model),
-                             gpu::spec(6, d.head_light_only), gpu::spec(10, d.aovs), gpu::spec(12, key.first_round),
-                             gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth), gpu::spec(16, key.display_only),
-                             gpu::spec(7, d.proxy_slack), gpu::spec(18, static_cast<std::uint32_t>(d.phase))};
+  const TileShadows::Key& s = key.shadows;
+  std::vector<gpu::SpecializationConstant> constants{
+      gpu::spec(0, d.orthographic), gpu::spec(1, d.light_count), gpu::spec(2, d.local_lights), gpu::spec(3, d.specular_model),
+      gpu::spec(6, d.head_light_only), gpu::spec(10, d.aovs), gpu::spec(12, key.first_round),
+      gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth), gpu::spec(16, key.display_only),
+      gpu::spec(7, d.proxy_slack), gpu::spec(18, static_cast<std::uint32_t>(d.phase))};
+  if (besides.shadows) {
+    for (std::uint32_t k = 0; k < s.lights.size(); ++k) constants.push_back(gpu::spec(31 + k, s.lights[k]));
+    constants.insert(constants.end(), {gpu::spec(30, s.maps), gpu::spec(35, s.orthographic)});
+  }
   const std::string shader = fmt::format("{}/tiles/cast/{}/{}", d.type, lanes(device_), words_);
-  if (!map) return casts_.emplace(key, make(shader, cast_pipelines_, constants)).first->second;
+  if (!besides.map && !besides.shadows) return casts_.emplace(key, make(shader, cast_pipelines_, constants)).first->second;
 
-  const std::string lane_text = std::to_string(lanes(device_));
-  const std::array<gpu::ShaderDefine, 4> defines{{{"TILES", "1"}, {"LANES", lane_text}, {words_ == "int64" ? "INT64" : "INT32", "1"}, {"PIXEL_MAP", "1"}}};
-  const auto words = compile_shader("particles/tiles/cast.comp",
-                                    {{"type.glsl", std::string(shaders::text(fmt::format("particles/{}/type.glsl", d.type)))}, {"pixel_map.glsl", map->glsl}},
-                                    cache_directory, defines);
+  std::vector<gpu::ShaderDefine> defines{{"TILES", "1"}, {"LANES", std::to_string(lanes(device_))}, {words_ == "int64" ? "INT64" : "INT32", "1"}};
+  std::vector<std::pair<std::string, std::string>> made{{"type.glsl", std::string(shaders::text(fmt::format("particles/{}/type.glsl", d.type)))}};
   std::vector<const gpu::BindGroupLayout*> sets{&frame_, &cast_};
-  if (map->layout) sets.push_back(&map->layout);
-  const gpu::PipelineLayout layout = device_.create_pipeline_layout({.label = "tiles.cast.map", .bind_group_layouts = sets, .push_constant_size = sizeof(StepBlock)});
+  if (besides.map) {
+    defines.push_back({"PIXEL_MAP", "1"});
+    made.emplace_back("pixel_map.glsl", besides.map->glsl);
+    if (besides.map->layout) sets.push_back(&besides.map->layout);
+  }
+  if (besides.shadows) {
+    defines.push_back({"SHADOW_SET", std::to_string(besides.shadow_set())});
+    sets.push_back(&besides.shadows->layout());
+  }
+  const auto words = compile_shader("particles/tiles/cast.comp", made, besides.cache_directory, defines);
+  const gpu::PipelineLayout layout = device_.create_pipeline_layout({.label = "tiles.cast.besides", .bind_group_layouts = sets, .push_constant_size = sizeof(StepBlock)});
   return casts_.emplace(key, make(shader, layout, constants, words)).first->second;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/gpu/gpu.hpp"
 #include "passes/particles/pipelines.hpp"
+#include "passes/shadows/tile_shadows.hpp"
 #include "render_graph/pass.hpp"
 
 #include <compare>
@@ -22,6 +23,7 @@ struct CastKey {
   bool first_round{}, one_material{}, want_depth{}, display_only{};
   std::uint32_t color_words{2};  // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float; 0: no color
   std::string pixel_map{};       // id of the map that is applied to the color; empty: none
+  TileShadows::Key shadows{};
   auto operator<=>(const CastKey&) const = default;
 };
 
@@ -34,8 +36,15 @@ public:
 
   [[nodiscard]] const gpu::ComputePipeline& kernel(const std::string& name); // "cull", "allocate", "scatter", "far"
   [[nodiscard]] const gpu::ComputePipeline& place(const ParticlePipelineKey& key, bool first_round, bool first_slice);
-  // `map`: the one that key.pixel_map names, or null. Its shader is compiled now (P002) or comes from the cache.
-  [[nodiscard]] const gpu::ComputePipeline& cast(const CastKey& key, const rg::PixelMap* map, const std::string& cache_directory);
+  // What a cast takes in besides, each may be null: the map that key.pixel_map names, the shadows of key.shadows. Their
+  // shader is compiled now (P002) or comes from the cache.
+  struct Besides {
+    const rg::PixelMap* map{};
+    const TileShadows* shadows{};
+    std::string cache_directory{};
+    [[nodiscard]] std::uint32_t shadow_set() const { return map && map->layout ? rg::PixelMap::set + 1 : 2; }
+  };
+  [[nodiscard]] const gpu::ComputePipeline& cast(const CastKey& key, const Besides& besides);
   [[nodiscard]] const gpu::BindGroupLayout& slice_layout() const { return slice_; }
   [[nodiscard]] const gpu::BindGroupLayout& binning_layout() const { return binning_; }
   [[nodiscard]] const gpu::BindGroupLayout& cast_layout() const { return cast_; }

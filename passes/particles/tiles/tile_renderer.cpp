@@ -93,7 +93,7 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.indirect, "tiles.indirect", arguments_.size() * 4, Usage::Indirect | Usage::CopyDst);
   reserve(b.payloads, "tiles.payloads", places * payload, storage);
   reserve(b.colors, "tiles.colors", places * 8, storage);
-  reserve(b.ids, "tiles.ids", targets.id || targets.casters ? places * 4 : 0, storage);
+  reserve(b.ids, "tiles.ids", targets.id || targets.casters || targets.shadows ? places * 4 : 0, storage);
   tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 12ull, storage) || tiles_fresh_;
   reserve(b.far, "tiles.far", plan_.cells * 4ull, storage);
   reserve(b.active, "tiles.active", plan_.level1 * 4ull, storage);
@@ -164,6 +164,8 @@ void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& target
 void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, const TiledView& view, const gpu::BindGroup& frame_group, const CastKey& key,
                                const TileTargets& targets, const Mark& mark) {
   const TileStep& step = plan_.steps[index];
+  ParticlePipelineKey placed = key.drawing;
+  if (targets.shadows) placed.aovs |= aov_id_bit; // no particle shadows itself
   const auto slices = static_cast<std::uint32_t>(view.slices.size());
   StepBlock block = block_;
   block.first = step.first;
@@ -190,7 +192,7 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
     block.round = round;
     gpu::ComputePass place = encoder.begin_compute_pass({.label = "tiles.place"});
     for (block.slice = 0; block.slice < slices; ++block.slice) {
-      begin(place, kernels_.place(key.drawing, key.first_round && round == 0, block.slice == 0));
+      begin(place, kernels_.place(placed, key.first_round && round == 0, block.slice == 0));
       place.dispatch_indirect(buffers_.indirect, offset(round, block.slice));
     }
     block.slice = 0;
@@ -207,10 +209,12 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
     cast = encoder.begin_compute_pass({.label = "tiles.cast"});
     CastKey variant = key;
     variant.first_round = key.first_round && round == 0;
-    cast.set_pipeline(kernels_.cast(variant, targets.map, targets.cache_directory));
+    const TileKernels::Besides besides{targets.map, targets.shadows, targets.cache_directory};
+    cast.set_pipeline(kernels_.cast(variant, besides));
     cast.set_bind_group(0, frame_group);
     cast.set_bind_group(1, cast_group_);
     if (targets.map && targets.map->group) cast.set_bind_group(rg::PixelMap::set, targets.map->group);
+    if (targets.shadows) cast.set_bind_group(besides.shadow_set(), targets.shadows->group());
     cast.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
     cast.dispatch_indirect(buffers_.indirect, offset(round, slices + 1));
     cast.end();
@@ -245,7 +249,8 @@ void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, c
   CastKey key{.drawing = drawing, .first_round = true, .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
               .display_only = color_words_ == 1 && drawing.aovs == 0 && !targets.encoded_depth && drawing.phase == Phase::Opaque,
               .color_words = color_words_,
-              .pixel_map = targets.map ? targets.map->id : std::string()};
+              .pixel_map = targets.map ? targets.map->id : std::string(), .shadows = targets.shadows ? targets.shadows->key() : TileShadows::Key{}};
+  if (targets.shadows) key.drawing.head_light_only = false;
   reserve_frame(drawing, targets);
   make_groups(view);
   clear(encoder, targets);

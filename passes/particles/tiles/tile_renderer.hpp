@@ -25,6 +25,7 @@ struct TileTargets {
   gpu::Texture casters{};          // as shadows/shadow_maps.hpp says: payloads and ids, a layer each
   gpu::Color background{};         // scene-linear
   const rg::PixelMap* map{};       // applied to colors and background; `color` is then what the map's pass would write
+  const TileShadows* shadows{};    // of lights; null: no light has a map
   std::string cache_directory{};   // of SPIR-V; empty: none
 };
 

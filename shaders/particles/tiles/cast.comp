@@ -14,6 +14,11 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "particles/interface.glsl"
+#ifdef SHADOW_SET
+#include "shadow/lit.glsl"
+Lit lit = all_lit(); // at the surface that is being shaded
+#define LIGHT_VISIBILITY(i) lit_by(lit, i)
+#endif
 #include "common/shading.glsl"
 #include "particles/tiles/work.glsl"
 
@@ -119,6 +124,9 @@ struct Taken {
   vec4 viewport, sample_near_far, material;
   float inverse_rest;
   vec3 ambient, head_light; // times the material, with one_material
+#ifdef SHADOW_SET
+  LightMap map0, map1, map2, map3;
+#endif
 };
 Taken take() {
   Taken u;
@@ -129,6 +137,12 @@ Taken take() {
   u.material = step.material;
   u.ambient = (one_material ? u.material.x : 1.0) * frame.ambient.rgb;
   u.head_light = (one_material ? u.material.y : 1.0) * frame.lights[0].strength.rgb;
+#ifdef SHADOW_SET
+  if (shadow_maps > 0) u.map0 = take_map(0);
+  if (shadow_maps > 1) u.map1 = take_map(1);
+  if (shadow_maps > 2) u.map2 = take_map(2);
+  if (shadow_maps > 3) u.map3 = take_map(3);
+#endif
   return u;
 }
 
@@ -169,7 +183,6 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, uint winner) {
       pack(particle, payload);
       out_normal[at] = payload[0];
       out_color_pairs[2u * at] = pair(uvec2(placed_ids[who], 0u));
-      out_color_pairs[2u * at + 1u] = pair(uvec2(0u));
     }
     return;
   }
@@ -177,6 +190,14 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, uint winner) {
     vec3 ambient = one_material ? u.ambient : material.x * u.ambient, light = one_material ? u.head_light : material.y * u.head_light;
     color = own * (ambient + max(-normal.z, 0.0) * light);
   } else {
+#ifdef SHADOW_SET
+    vec3 position = ray.origin + t * ray.direction;
+    uint id = placed_ids[who];
+    if (shadow_maps > 0) lit.map0 = light_past(u.map0, casters0, (orthographic_maps & 1) != 0, id, position);
+    if (shadow_maps > 1) lit.map1 = light_past(u.map1, casters1, (orthographic_maps & 2) != 0, id, position);
+    if (shadow_maps > 2) lit.map2 = light_past(u.map2, casters2, (orthographic_maps & 4) != 0, id, position);
+    if (shadow_maps > 3) lit.map3 = light_past(u.map3, casters3, (orthographic_maps & 8) != 0, id, position);
+#endif
     color = shade(Surface(ray.origin + t * ray.direction, normal, -normalize(ray.direction)), own, material);
   }
   if (!changed) return;
