@@ -102,11 +102,11 @@ public:
     report_.tiled = tiled ? tiled_.chunks() : 0;
     report_.rastered = placed_.chunks_placed;
     if (const auto& chosen = context.frame().get<FrameOptions>().chosen) chosen(report_);
-    if (tiled) record_tiles(context);
-    if (tiled && !surfaces_first_ && placed_.draws.empty()) return;
     raster_ = expansion == Expansion::Geometry ? expansion : Expansion::Vertex;
     reserve_indices(device, placed_);
-    if (offsets_.size() > 1) return record_samples(context);
+    if (offsets_.size() > 1) return record_samples(context, tiled);
+    if (tiled) record_tiles(context);
+    if (tiled && !surfaces_first_ && placed_.draws.empty()) return;
     if (analytic_edges_) return record_edges(context);
     if (surfaces_first_) return draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_.get(), tiled);
     gpu::RenderPass pass = context.begin_attachments(tiled);
@@ -123,9 +123,14 @@ private:
   // False: nothing in view is for tiles. Shadows are asked where tiles are cast, unless something is left for quads, which
   // do not know them, or the maps are beyond what a cast can hold: then tiles leave surfaces, as quads do.
   bool place_tiles(rg::PassContext& context, const ParticleStore& store) {
-    TileWish wish{context.frame().get<Scene>(), context.frame().get<View>(), selection_, Phase::Opaque, aovs_};
+    TileWish wish{context.frame().get<Scene>(), context.frame().get<View>(), selection_};
     wish.placing.exact = aovs_ != 0 || context.kept("depth");
-    const auto place = [&] { return tiled_.place(context.device(), store, pipelines_->frame_layout(), wish); };
+    const bool several = offsets_.size() > 1;
+    if (several) wish.placing.margin = 0.5; // of any sample to its pixel's center
+    const auto place = [&] {
+      const bool tiled = tiled_.place(context.device(), store, pipelines_->frame_layout(), wish);
+      return tiled && !(several && !tiled_.rest().draws.empty()); // all samples by tiles, or none
+    };
     if (deferred_ && TileShadows::can_hold(lights_)) {
       const bool tiled = place();
       surfaces_first_ = !tiled_.rest().draws.empty();
@@ -138,7 +143,6 @@ private:
     if (surfaces_first_) {
       update_surfaces(context, surfaces_, false);
       wish.phase = Phase::Surface;
-      wish.aovs = aov_id_bit;
       wish.placing.material = [this](const Batch& batch) { return surfaces_->material_of(batch); };
     }
     return place();
@@ -152,17 +156,22 @@ private:
                         .id = context.whole_texture("aov_id"),
                         .normal = context.whole_texture("aov_normal"),
                         .background = clear_value("color", context.frame())};
-    if (deferred_ && !surfaces_first_) targets.shadows = tile_shadows_.get();
+    targets.shadows = shadows_for_tiles();
+    targets.cache_directory = cache_directory(context);
     if (surfaces_first_) {
       targets = {.color = surfaces_->color(), .encoded_depth = targets.encoded_depth, .id = surfaces_->id(), .normal = surfaces_->normal_t()};
-    } else if (const auto next = draw_on ? std::nullopt : context.successor("color"); next && TileRenderer::works(context.device(), next->target.format())) {
-      const DisplaySettings* display = context.frame().find<DisplaySettings>();
+    } else if (const auto next = draw_on || offsets_.size() > 1 ? std::nullopt : context.successor("color"); next && TileRenderer::works(context.device(), next->target.format())) {
       targets.map = next->map;
       targets.color = next->target;
-      targets.cache_directory = display ? display->cache_directory : std::string();
       context.take_over("color");
     }
     tiled_.record(context.encoder(), frame_group_, targets, [&](std::string_view stage) { context.mark(stage); });
+  }
+
+  [[nodiscard]] const TileShadows* shadows_for_tiles() const { return deferred_ && !surfaces_first_ ? tile_shadows_.get() : nullptr; }
+  static std::string cache_directory(const rg::PassContext& context) {
+    const DisplaySettings* display = context.frame().find<DisplaySettings>();
+    return display ? display->cache_directory : std::string();
   }
 
   void reserve_indices(gpu::Device& device, const PlacedView& placed) {
@@ -264,14 +273,17 @@ private:
   }
 
   // Depth and AOVs are those of the pixel's center, from a picture of their own, if anybody looks at them.
-  void record_center(rg::PassContext& context) {
-    if (aovs_ != 0 || context.kept("depth"))
+  void record_center(rg::PassContext& context, bool tiled) {
+    if (aovs_ == 0 && !context.kept("depth")) return;
+    if (tiled)
+      record_tiles(context);
+    else
       draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_first_ ? surfaces_.get() : nullptr);
   }
 
   void record_edges(rg::PassContext& context) {
     update_surfaces(context, edge_surfaces_, true);
-    record_center(context);
+    record_center(context, false);
     const Size2d size = context.frame().get<View>().size;
     gpu::Device device = context.device();
     if (make_scratch(device, edge_depth_, "edges.depth", {size.width, size.height, 1}, depth_)) edge_depth_view_ = edge_depth_.create_view();
@@ -280,7 +292,7 @@ private:
   }
 
   // One picture a sample, averaged.
-  void record_samples(rg::PassContext& context) {
+  void record_samples(rg::PassContext& context, bool tiled) {
     const Scene& scene = context.frame().get<Scene>();
     View view = context.frame().get<View>();
     gpu::Device device = context.device();
@@ -288,14 +300,19 @@ private:
     accumulator_->update(view.size.width, view.size.height);
     const glm::dvec2 center = view.sample_offset;
     const gpu::TextureView color = context.texture("color");
-    record_center(context);
+    record_center(context, tiled);
     const Targets picture{{accumulator_->picture()}, {clear_value("color", context.frame())}};
     for (std::size_t i = 0; i < offsets_.size(); ++i) {
       view.sample_offset = center + offsets_[i] - 0.5;
       if (i == sample_frames_.size()) sample_frames_.push_back(make_frame(device));
       const FrameBlock block = frame_block(scene, view);
       device.queue().write_buffer(sample_frames_[i].first, 0, std::as_bytes(std::span(&block, 1)));
-      draw_picture(context, sample_frames_[i].second, picture, 0, accumulator_->depth(), surfaces_first_ ? surfaces_.get() : nullptr);
+      if (tiled)
+        tiled_.record(context.encoder(), sample_frames_[i].second,
+                      {.color = accumulator_->texture(), .background = picture.clear.front(), .shadows = shadows_for_tiles(), .cache_directory = cache_directory(context)},
+                      [&](std::string_view stage) { context.mark(stage); });
+      else
+        draw_picture(context, sample_frames_[i].second, picture, 0, accumulator_->depth(), surfaces_first_ ? surfaces_.get() : nullptr);
       accumulator_->add(context.encoder(), i == 0);
     }
     accumulator_->resolve(context.encoder(), color);
@@ -319,7 +336,7 @@ private:
     const gpu::Device device = context.device();
     const ExpansionNeeds needs{device, scene, context.frame().get<View>(), selection_, states_, context.format("color"),
                                static_cast<std::uint32_t>(std::popcount(aovs_)),
-                               analytic_edges_ ? "analytic edges" : offsets_.size() > 1 ? "several samples a pixel" : "",
+                               analytic_edges_ ? "analytic edges" : "",
                                deferred_ ? Phase::Surface : Phase::Opaque};
     report_ = {.kind = "opaque_impostors", .choice = choose_expansion(needs, options, chooser_), .automatic = options.expansion == Expansion::Auto};
     lacks_tiles_ = report_.automatic ? device_lacks_tiles(device) : std::string();

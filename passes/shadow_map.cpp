@@ -134,8 +134,8 @@ private:
   }
 
   bool place_tiles(rg::PassContext& context, const Scene& scene, const ParticleStore& store, std::uint32_t slot) {
-    TileWish wish{scene, info_.view, selection_, Phase::Shadow, ids_ ? aov_id_bit : 0u, slot};
-    wish.placing.margin = ids_ ? thin_ : 0.0;
+    TileWish wish{scene, info_.view, selection_, Phase::Shadow, slot, ids_ ? thin_ : 0.0f};
+    wish.placing.margin = wish.slack;
     return tiles_.place(context.device(), store, pipelines_->frame_layout(), wish);
   }
 

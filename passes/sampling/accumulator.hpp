@@ -20,6 +20,7 @@ public:
 
   void update(std::uint32_t width, std::uint32_t height); // Throws Failure G071
   [[nodiscard]] const gpu::TextureView& picture() const { return picture_view_; } // rgba16float, straight alpha
+  [[nodiscard]] const gpu::Texture& texture() const { return picture_; }           // of picture(); may be copied to
   [[nodiscard]] const gpu::TextureView& depth() const { return depth_view_; }     // depth32float
   void add(gpu::CommandEncoder& encoder, bool first);
   void resolve(gpu::CommandEncoder& encoder, const gpu::TextureView& target);

@@ -4,6 +4,7 @@
 #include "harness.hpp"
 
 #include "core/reference/reference.hpp"
+#include "passes/particles/expansion_choice.hpp"
 #include "passes/sampling/pattern.hpp"
 #include "render_graph/compile.hpp"
 #include "passes/builtin.hpp"
@@ -73,7 +74,7 @@ TEST(SamplePatterns, WhatCannotBeIsSaid) {
   EXPECT_THAT(problems_of("'many'"), HasSubstr("error G020"));
 }
 
-class Samples : public GpuTest {
+class Discs : public GpuTest {
 protected:
   // White unlit discs of 3 to 30 px on black: color is coverage.
   static Scene discs() {
@@ -93,7 +94,7 @@ protected:
   }
   static View view(const Scene& scene) { // one unit a pixel
     const double width = scene.bounds.max.x - scene.bounds.min.x + 8;
-    return look_orthographic(scene, {0.5 * (scene.bounds.min.x + scene.bounds.max.x) + 0.13, 0.29, 500}, {0.5 * (scene.bounds.min.x + scene.bounds.max.x) + 0.13, 0.29, 0},
+    return look_orthographic(scene, {0.5 * (scene.bounds.min.x + scene.bounds.max.x) + 0.13, 0.29, 5000}, {0.5 * (scene.bounds.min.x + scene.bounds.max.x) + 0.13, 0.29, 0},
                              {static_cast<std::uint32_t>(width), 160}, 160);
   }
   // RMS of coverage over the pixels that an edge crosses.
@@ -107,19 +108,32 @@ protected:
   }
 };
 
-TEST_F(Samples, ErrorsOfThePatternsOnEdges) {
+// Several samples a pixel, by quads and by tiles.
+class Samples : public Discs, public testing::WithParamInterface<passes::Expansion> {
+protected:
+  Picture draw(const Scene& scene, const View& view, passes::FrameOptions options = {}, const std::vector<std::string>& settings = {}) {
+    options.expansion = GetParam();
+    options.chosen = [this](const passes::ExpansionReport& report) { tiled_ = report.tiled > 0; };
+    return GpuTest::draw(scene, view, options, settings);
+  }
+  bool tiled_{}; // whether the last picture had tiles
+};
+INSTANTIATE_TEST_SUITE_P(, Samples, testing::Values(passes::Expansion::Vertex, passes::Expansion::Compute), [](const auto& p) { return std::string(to_string(p.param)); });
+
+TEST_P(Samples, ErrorsOfThePatternsOnEdges) {
   const Scene scene = discs();
   const auto area = render_reference_area(reference::build_world(scene), view(scene), 16);
   const auto error = [&](const std::string& samples) { return edge_error(draw(scene, view(scene), {}, {"opaque.samples=" + samples}), area); };
   EXPECT_GT(error("1"), 0.2);
   EXPECT_LE(error("{ pattern = \"jittered\", n = 16 }"), 0.045);
+  EXPECT_EQ(tiled_, GetParam() == passes::Expansion::Compute);
   EXPECT_LE(error("{ pattern = \"regular\", n = 16 }"), 0.04);
   EXPECT_LE(error("{ pattern = \"poisson\", n = 16 }"), 0.065);
   EXPECT_LE(error("{ pattern = \"random\", n = 16 }"), 0.12);
   EXPECT_LE(error("{ pattern = \"jittered\", n = 64 }"), 0.018);
 }
 
-TEST_F(Samples, AovsAreThoseOfThePixelsCenter) {
+TEST_P(Samples, AovsAreThoseOfThePixelsCenter) {
   Scene scene = discs();
   const Picture one = draw(scene, view(scene)), many = draw(scene, view(scene), {}, {"opaque.samples=4"});
   EXPECT_EQ(one.id, many.id);
@@ -130,7 +144,7 @@ TEST_F(Samples, AovsAreThoseOfThePixelsCenter) {
 
 // Averaged in scene-linear light: half a pixel of white over black shows as 188, not as 128.
 // ---- analytic edges ----------------------------------------------------------------------------------
-class AnalyticEdges : public Samples {
+class AnalyticEdges : public Discs {
 protected:
   // Discs of one radius (pixels) on a grid, at many places relative to the pixels; `move` shifts all.
   static Scene grid(double radius, int n, double spacing, glm::dvec2 move = {0, 0}) {
@@ -218,7 +232,7 @@ TEST_F(AnalyticEdges, NotWithSeveralSamples) {
   EXPECT_THAT(to_string(rg::compile(graph, registry, {}, found).diagnostics), HasSubstr("g.toml:6:34: error P006"));
 }
 
-TEST_F(Samples, AverageBeforeTheDisplayTransform) {
+TEST_P(Samples, AverageBeforeTheDisplayTransform) {
   Scene scene = scene_of({{0, 0, 0, 1000}}, {0xFFFFFFFFu});
   scene.background = {0, 0, 0, 1};
   scene.ambient = {1, 1, 1};
@@ -229,7 +243,7 @@ TEST_F(Samples, AverageBeforeTheDisplayTransform) {
   EXPECT_NEAR(p.display[p.at(4, 4)].g, 188, 1);
 }
 
-TEST_F(Samples, ATransparentBackgroundKeepsStraightColor) {
+TEST_P(Samples, ATransparentBackgroundKeepsStraightColor) {
   Scene scene = discs();
   scene.background = {0, 0, 0, 0};
   const Picture p = draw(scene, view(scene), {}, {"opaque.samples=16"});
@@ -242,7 +256,7 @@ TEST_F(Samples, ATransparentBackgroundKeepsStraightColor) {
   EXPECT_GT(partly, 1000u);
 }
 
-TEST_F(Samples, WithShadows) {
+TEST_P(Samples, WithShadows) {
   graph_ = "shadowed";
   Scene scene = scene_of({{0, 0, 0, 2}, {0, 5, 0, 0.5}});
   scene.lights = {{.name = "sun", .kind = LightKind::Directional, .direction = {0, -1, 0}, .intensity = 0.8, .shadows = true}};

@@ -40,6 +40,12 @@ std::vector<std::uint32_t> background_words(gpu::Color c, std::uint32_t words) {
   return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z), std::bit_cast<std::uint32_t>(v.w)};
 }
 
+ParticlePipelineKey drawing_of(ParticlePipelineKey key, const TileTargets& targets) {
+  key.aovs = (targets.depth ? aov_depth_bit : 0u) | (targets.id ? aov_id_bit : 0u) | (targets.normal ? aov_normal_bit : 0u);
+  if (targets.shadows) key.head_light_only = false;
+  return key;
+}
+
 } // namespace
 
 bool TileRenderer::works(const gpu::Device& device, gpu::TextureFormat color) { return TileKernels::lanes(device) != 0 && words_of(color) != 0; }
@@ -165,7 +171,7 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
                                const TileTargets& targets, const Mark& mark) {
   const TileStep& step = plan_.steps[index];
   ParticlePipelineKey placed = key.drawing;
-  if (targets.shadows) placed.aovs |= aov_id_bit; // no particle shadows itself
+  if (targets.shadows || targets.casters) placed.aovs |= aov_id_bit; // no particle shadows itself
   const auto slices = static_cast<std::uint32_t>(view.slices.size());
   StepBlock block = block_;
   block.first = step.first;
@@ -246,12 +252,11 @@ void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& tar
 void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& drawing,
                           const TileTargets& targets, const Mark& mark) {
   color_words_ = targets.color ? words_of(targets.color.format()) : targets.casters ? 4 : 0;
-  CastKey key{.drawing = drawing, .first_round = true, .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
-              .display_only = color_words_ == 1 && drawing.aovs == 0 && !targets.encoded_depth && drawing.phase == Phase::Opaque,
+  CastKey key{.drawing = drawing_of(drawing, targets), .first_round = true, .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
+              .display_only = color_words_ == 1 && !targets.depth && !targets.id && !targets.normal && !targets.encoded_depth && drawing.phase == Phase::Opaque,
               .color_words = color_words_,
               .pixel_map = targets.map ? targets.map->id : std::string(), .shadows = targets.shadows ? targets.shadows->key() : TileShadows::Key{}};
-  if (targets.shadows) key.drawing.head_light_only = false;
-  reserve_frame(drawing, targets);
+  reserve_frame(key.drawing, targets);
   make_groups(view);
   clear(encoder, targets);
   mark("clear");
@@ -260,6 +265,7 @@ void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, c
     record_step(encoder, i, view, frame_group, key, targets, mark);
     key.first_round = false;
   }
+  flags_fresh_ = false;
   copy_out(encoder, targets);
   mark("copy");
 }

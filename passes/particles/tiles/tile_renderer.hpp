@@ -37,7 +37,7 @@ public:
 
   // Uploads; before the encoder's passes. Sorts view.chunks by depth. `view` must live until record().
   void update(TiledView& view, std::uint32_t width, std::uint32_t height);
-  // Records everything, the copies to the targets included. `key`: the scene's needs; type, phase and aovs filled in.
+  // Records everything, the copies to the targets included. `key`: the scene's needs, with the phase.
   // `mark` is told the end of each stage.
   using Mark = std::function<void(std::string_view stage)>;
   void record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& key,

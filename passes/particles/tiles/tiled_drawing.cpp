@@ -22,9 +22,8 @@ bool TiledDrawing::place(gpu::Device device, const ParticleStore& store, const g
   tiles_->update(tiled_, wish.view.size.width, wish.view.size.height);
   bool mixed = false;
   key_ = key_for_all(scene, wish.view, mixed); // never mixed: why_not() has looked
-  key_.aovs = wish.aovs;
   key_.phase = wish.phase;
-  key_.proxy_slack = static_cast<float>(wish.placing.margin);
+  key_.proxy_slack = wish.slack;
   if (wish.phase != Phase::Opaque) unlit(key_);
   if (wish.phase == Phase::Shadow) key_.per_particle_color = false;
   return true;

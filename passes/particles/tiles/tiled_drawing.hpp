@@ -5,6 +5,8 @@
 //   if (drawing.place(device, store, frame_layout, wish))       // something is for tiles
 //     drawing.record(encoder, frame_group, targets, mark);
 //
+// One placement may be recorded several times, for frame blocks whose sample offsets differ by no more than the margin.
+//
 // Whether tiles can draw the scene at all is asked before (expansion_choice.hpp).
 #pragma once
 
@@ -21,8 +23,8 @@ struct TileWish {
   const View& view;
   const Selection& selection;
   Phase phase{Phase::Opaque};  // or Surface, Shadow
-  std::uint32_t aovs{};        // that are made; phase Surface makes its own
   std::uint32_t slot{};        // of the store's placements
+  float slack{};               // phase Shadow: thinner casters, in pixels, are widened
   TilePlacing placing{};
 };
 
