@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/reference/shapes.hpp"
 
+#include "core/reference/shapes_local.hpp"
+
 #include <array>
 #include <cmath>
 
@@ -46,9 +48,13 @@ glm::dvec3 sphere_normal(const Particle& p, const Ray& ray, bool exit) {
   return glm::normalize(c.l + (exit ? h : -h) * ray.direction);
 }
 
-constexpr std::array<Shape, 1> shapes{{
-    {"sphere", sphere_bounds, sphere_intersect, sphere_normal},
-}};
+double sphere_curvature(const Particle& p) { return p.radius; }
+
+constexpr Shape sphere_shape{"sphere", sphere_bounds, sphere_intersect, sphere_normal, sphere_curvature};
+
+// A new type's row is added here.
+constexpr std::array<const Shape*, 8> shapes{&sphere_shape,    &capsule_shape, &cylinder_shape, &cone_shape, &arrow_shape,
+                                             &ellipsoid_shape, &box_shape,     &superquadric_shape};
 
 } // namespace
 
@@ -58,14 +64,14 @@ Particle particle(const ChunkSet& chunks, std::uint64_t record) {
 }
 
 const Shape* find_shape(std::string_view type) {
-  for (const Shape& shape : shapes)
-    if (shape.type == type) return &shape;
+  for (const Shape* shape : shapes)
+    if (shape->type == type) return shape;
   return nullptr;
 }
 
 std::vector<std::string> shape_types() {
   std::vector<std::string> names;
-  for (const Shape& shape : shapes) names.emplace_back(shape.type);
+  for (const Shape* shape : shapes) names.emplace_back(shape->type);
   return names;
 }
 

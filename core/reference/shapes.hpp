@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: MIT
 // The double-precision twins of the particle types: per type name, the bounds of a record and the
-// interval in which a ray is inside the particle. This is the one table a new particle type adds a
+// interval in which a ray is inside the particle. The table in shapes.cpp is what a new particle type adds a
 // line to so that the reference can draw it; the tracer knows nothing of spheres.
 //
 // Everything here lives in the data set's own space and reads the record as stored (float32
 // relative to its chunk's origin), widened to double. Nothing is shared with the shaders.
+//
+// Records: r[0] = (center, radius of a bounding sphere) and
+//   sphere        r[0].w is its radius
+//   capsule       r[1] = (h, radius): all points within the radius of the segment center - h .. center + h
+//   cylinder      r[1] = (h, radius at center - h), r[2] = (radius at center + h, ends, 0, 0); ends 0: disks close it;
+//                 1: open, a surface with two faces whose normal is turned to the ray
+//   cone          r[1] = (h, radius at center - h), r[2] = (radius at center + h, 0, 0, 0); disks close it
+//   arrow         r[1] = (h, shaft radius), r[2] = (head radius, head length, 0, 0), from center - h to the tip center + h
+//   ellipsoid     r[1] = quaternion (x, y, z, w), r[2] = (semi-axes, 0)
+//   box           r[1] = quaternion, r[2] = (half extents, 0)
+//   superquadric  r[1] = quaternion, r[2] = (semi-axes, 0), r[3] = (e1, e2, 0, 0)
+// A quaternion turns the solid's axes into the data set's and counts by its direction alone. A solid without
+// extent (no radius, an axis of length 0, but for the capsule without length, which is a sphere) is never met.
 #pragma once
 
 #include "core/math/camera.hpp"
@@ -40,10 +53,13 @@ struct Interval {
 struct Shape {
   std::string_view type;
   Bounds (*bounds)(const Particle&);
-  // The part of the line (any t) inside the convex particle; nullopt: missed.
+  // The part of the line (any t) inside the particle, from the first entry to the last exit (the arrow is the one
+  // that is not convex); nullopt: missed.
   std::optional<Interval> (*intersect)(const Particle&, const Ray&);
   // Outward normal, unit, where the ray enters (exit = false) or leaves. Only after intersect() hit.
   glm::dvec3 (*normal)(const Particle&, const Ray&, bool exit);
+  // About the smallest radius of curvature, for the bar on normals.
+  double (*curvature)(const Particle&);
 };
 
 const Shape* find_shape(std::string_view type); // nullptr: not known

@@ -86,7 +86,7 @@ void Tracer::leaf(Search& search, std::uint32_t placed, std::uint32_t record) co
   const glm::dvec3 m = p.center - first.origin;
   const double s = glm::dot(m, first.direction) / glm::dot(first.direction, first.direction);
   const glm::dvec3 l = m - s * first.direction;
-  const double reach = p.radius + search.slack;
+  const double reach = p.radius * (1.0 + 1e-6) + search.slack; // a float32 bounding radius may be rounded down
   if (glm::dot(l, l) > reach * reach * (1.0 + 1e-12)) return;
   Hit hit{0.0, owner.first_id + chunks.rows[record], placed, record, false};
   for (std::size_t i = 0; i < search.count; ++i) {
@@ -162,7 +162,7 @@ glm::dvec3 Tracer::normal(const Sample& sample) const {
 double Tracer::projected_radius(const Hit& hit) const {
   const Placed& p = world_.placed[hit.placed];
   const Particle of = particle(*p.tree->chunks, hit.record);
-  const double radius = view_.focal * of.radius * p.curvature;
+  const double radius = view_.focal * p.tree->shape->curvature(of) * p.curvature;
   if (view_.projection == Projection::Orthographic) return radius;
   return radius / glm::length(p.linear * (of.center - seen_[hit.placed].eye));
 }

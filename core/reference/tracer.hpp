@@ -53,8 +53,8 @@ public:
   [[nodiscard]] Sample sample(double x, double y, bool ambiguity) const;
   // Unit, world, turned to the eye. Only for a hit.
   [[nodiscard]] glm::dvec3 normal(const Sample& sample) const;
-  // Radius of the hit particle's bounding sphere on the picture, in pixels: focal * radius / distance of its
-  // center (orthographic: focal * radius). Placed by no similarity: an estimate of the smallest radius of curvature.
+  // The hit particle's smallest radius of curvature (a sphere's: its radius) on the picture, in pixels: focal * radius
+  // / distance of its center (orthographic: focal * radius). Placed by no similarity: an estimate.
   [[nodiscard]] double projected_radius(const Hit& hit) const;
   // Whether a surface of any particle but `skip_id` lies on origin + t direction with 0 < t < t_max.
   [[nodiscard]] bool occluded(const Ray& ray, double t_max, std::uint64_t skip_id) const;
