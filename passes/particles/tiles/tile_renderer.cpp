@@ -176,8 +176,8 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
   StepBlock block = block_;
   block.first = step.first;
   block.count = step.count;
-  block.others = step.others ? 1 : 0;
   block.region = regions_[index];
+  block.others = step.others ? 1u : 0u;
   auto groups = [](std::uint32_t invocations) { return (invocations + workgroup - 1) / workgroup; };
   auto begin = [&](gpu::ComputePass& pass, const gpu::ComputePipeline& pipeline) {
     pass.set_pipeline(pipeline);
@@ -196,9 +196,10 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
   encoder.copy_buffer_to_buffer(buffers_.arguments, block.region * 4ull, buffers_.indirect, block.region * 4ull, region_size(step.rounds, slices) * 4ull);
   for (std::uint32_t round = 0; round < step.rounds; ++round) {
     block.round = round;
+    block.others = (step.others ? 1u : 0u) | (first_ && round == 0 ? 0u : 2u);
     gpu::ComputePass place = encoder.begin_compute_pass({.label = "tiles.place"});
     for (block.slice = 0; block.slice < slices; ++block.slice) {
-      begin(place, kernels_.place(placed, key.first_round && round == 0, block.slice == 0));
+      begin(place, kernels_.place(placed, first_ && round == 0, block.slice == 0));
       place.dispatch_indirect(buffers_.indirect, offset(round, block.slice));
     }
     block.slice = 0;
@@ -213,10 +214,8 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
     cast.end();
     mark("scatter");
     cast = encoder.begin_compute_pass({.label = "tiles.cast"});
-    CastKey variant = key;
-    variant.first_round = key.first_round && round == 0;
     const TileKernels::Besides besides{targets.map, targets.shadows, targets.cache_directory};
-    cast.set_pipeline(kernels_.cast(variant, besides));
+    cast.set_pipeline(kernels_.cast(key, besides));
     cast.set_bind_group(0, frame_group);
     cast.set_bind_group(1, cast_group_);
     if (targets.map && targets.map->group) cast.set_bind_group(rg::PixelMap::set, targets.map->group);
@@ -252,7 +251,7 @@ void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& tar
 void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& drawing,
                           const TileTargets& targets, const Mark& mark) {
   color_words_ = targets.color ? words_of(targets.color.format()) : targets.casters ? 4 : 0;
-  CastKey key{.drawing = drawing_of(drawing, targets), .first_round = true, .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
+  CastKey key{.drawing = drawing_of(drawing, targets), .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
               .display_only = color_words_ == 1 && !targets.depth && !targets.id && !targets.normal && !targets.encoded_depth && drawing.phase == Phase::Opaque,
               .color_words = color_words_,
               .pixel_map = targets.map ? targets.map->id : std::string(), .shadows = targets.shadows ? targets.shadows->key() : TileShadows::Key{}};
@@ -260,10 +259,11 @@ void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, c
   make_groups(view);
   clear(encoder, targets);
   mark("clear");
+  first_ = true;
   for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
     if (flags_fresh_ && !plan_.steps[i].others) continue; // nothing was seen before
     record_step(encoder, i, view, frame_group, key, targets, mark);
-    key.first_round = false;
+    first_ = false;
   }
   flags_fresh_ = false;
   copy_out(encoder, targets);

@@ -67,6 +67,7 @@ private:
   gpu::BindGroup binning_group_{}, cast_group_{};
   std::vector<std::uint32_t> background_words_{};
   std::uint32_t color_words_{2};
+  bool first_{}; // nothing was cast before in the frame that is being recorded
   bool flags_fresh_{}, tiles_fresh_{true};
 };
 

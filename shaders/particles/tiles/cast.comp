@@ -33,7 +33,6 @@ layout(local_size_x = LANES) in;
 const int pixels = 64 / LANES; // of one invocation
 
 layout(constant_id = 10) const uint aovs = 0u;           // bits: 1 depth, 2 id, 4 normal
-layout(constant_id = 12) const bool first_round = false; // nothing was cast before in this frame
 layout(constant_id = 13) const bool one_material = true; // of all batches: StepBlock.material
 layout(constant_id = 14) const uint color_words = 2u;    // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float; 0: no color
 layout(constant_id = 15) const bool want_depth = false;  // the encoded depth, for passes that draw after this one
@@ -219,6 +218,7 @@ void main() {
   // Rays to visibility's precision: a ten-thousandth of a pixel. resolve() forms the exact ones.
   Taken u = take();
   uint height = step.height, room = step.tile_room;
+  bool again = (step.others & 2u) != 0u; // a variant of the pipeline for the first round would take longer to make than it saves
   vec2 offset = vec2(base) + u.sample_near_far.xy;
   float inverse_focal = u.viewport.w + u.inverse_rest;
   float key[pixels];
@@ -231,12 +231,12 @@ void main() {
   bool inside = base.x + p.x < u.width && base.y + p.y < height; \
   uint pixel = (base.y + p.y) * u.width + base.x + p.x; \
   key[k] = !inside ? -1.0 : infinitely_far; \
-  if (!first_round) { if (inside) key[k] = nearest[pixel]; } \
+  if (inside && again) key[k] = nearest[pixel]; \
   won[k] = no_particle; }
   FOR_PIXELS(START)
   vec2 least = max(max(offset, -(offset + float(tile_size - 1))), vec2(0.0)) * inverse_focal;
   float least_ray2 = orthographic ? 1.0 : 1.0 + dot(least, least);
-  float hidden_from = first_round ? uintBitsToFloat(0x7F800000u) : far[tile];
+  float hidden_from = far[tile];
   float depth_origin = step.depth_origin, depth_scale = step.depth_scale;
   uint hidden_step = depth_step(hidden_from, depth_origin, depth_scale);
 

@@ -18,7 +18,7 @@ void main() {
   uvec2 lo = corner(rect_lo), hi = corner(rect_hi), span = hi - lo + 1u;
   uint flag = draws[draw + 11u] + chunks[i * chunk_words + 6u];
   bool before = flags[flag] != 0u, take = before;
-  if (step.others != 0u) {
+  if ((step.others & 1u) != 0u) {
     bool now = z_min < farthest(lo, hi, level_of(max(span.x, span.y)));
     flags[flag] = now ? 1u : 0u;
     take = now && !before;

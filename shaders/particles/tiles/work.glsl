@@ -27,7 +27,8 @@ const int tile_size = 8;
 // A CPU device gathers uniform values lane by lane at every use: loops take them into locals first.
 layout(push_constant) uniform StepBlock {
   uint first, count;        // placed chunks of this step
-  uint others;              // 0: the chunks that were seen in the last frame; 1: the rest, tested against the depth so far
+  uint others;              // bit 0: not the chunks that were seen in the last frame but the rest, tested against the depth so far;
+                            // bit 1: something was cast before in this frame
   uint region;              // of this step's arguments, in uints: one cursor, then a block for each round
   uint round;
   uint slice, slices;       // buffers of records
