@@ -6,6 +6,7 @@
 #include "passes/particles/expansion_choice.hpp"
 #include "passes/particles/frame_uniform.hpp"
 #include "passes/particles/particle_store.hpp"
+#include "passes/particles/particle_type.hpp"
 #include "passes/particles/pipelines.hpp"
 #include "passes/particles/quad_indices.hpp"
 #include "passes/particles/selection.hpp"
@@ -22,6 +23,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -330,6 +332,9 @@ private:
 
   void choose(rg::PassContext& context) {
     const Scene& scene = context.frame().get<Scene>();
+    for (const Batch& batch : scene.batches)
+      if (const ParticleType* type = find_particle_type(batch.type); analytic_edges_ && selection_.draws(batch) && type && !type->analytic_edges)
+        fail(Exit::Failed, "P021", {}, fmt::format("edges = \"analytic\" is not for particle type '{}'", batch.type), {"edges = \"sampled\" with samples draws every type with smooth outlines"});
     const FrameOptions& options = context.frame().get<FrameOptions>();
     if (scene.lights.size() > max_lights)
       fail(Exit::Failed, "P003", {}, fmt::format("the scene has {} lights; a frame holds {}", scene.lights.size(), max_lights));

@@ -5,6 +5,7 @@
 #include "passes/particles/expansion_choice.hpp"
 #include "passes/particles/frame_uniform.hpp"
 #include "passes/particles/particle_store.hpp"
+#include "passes/particles/particle_type.hpp"
 #include "passes/particles/pipelines.hpp"
 #include "passes/particles/quad_indices.hpp"
 #include "passes/particles/selection.hpp"
@@ -40,8 +41,8 @@ public:
       slots.push_back({.name = "map", .access = rg::Access::DepthWrite, .summary = "n / z in the light's view", .makes = depth, .copied_into = true});
       return;
     }
-    slots.push_back({.name = "map", .access = rg::Access::ColorWrite, .summary = "casters: payload and id, a layer each",
-                     .makes = rg::TextureSpec{.format = TextureFormat::RGBA32Uint, .size = square, .layers = 2}, .copied_into = true});
+    slots.push_back({.name = "map", .access = rg::Access::ColorWrite, .summary = "casters: payload and id, a layer each vec4",
+                     .makes = rg::TextureSpec{.format = TextureFormat::RGBA32Uint, .size = square, .layers = 1 + most_payload_vec4s}, .copied_into = true});
     slots.push_back({.name = "depth", .access = rg::Access::DepthWrite, .summary = "n / z in the light's view", .makes = depth, .copied_into = true});
   }
 
@@ -68,6 +69,9 @@ public:
     if (view) {
       info_.light = light;
       info_.view = *view;
+      info_.types.clear();
+      for (const Batch& batch : scene.batches)
+        if (selection_.draws(batch) && std::find(info_.types.begin(), info_.types.end(), batch.type) == info_.types.end()) info_.types.push_back(batch.type);
       store.shadow_maps().publish(map, info_);
       place(context, scene, store, map);
     } else {
@@ -134,7 +138,10 @@ private:
   }
 
   bool place_tiles(rg::PassContext& context, const Scene& scene, const ParticleStore& store, std::uint32_t slot) {
-    TileWish wish{scene, info_.view, selection_, Phase::Shadow, slot, ids_ ? thin_ : 0.0f};
+    TileWish wish{scene, info_.view, selection_, Phase::Shadow};
+    if (ids_) wish.type = "sphere"; // tiles leave one payload vec4
+    wish.slot = slot;
+    wish.slack = ids_ ? thin_ : 0.0f;
     wish.placing.margin = wish.slack;
     return tiles_.place(context.device(), store, pipelines_->frame_layout(), wish);
   }
@@ -154,7 +161,9 @@ private:
     std::vector<gpu::TextureView> layers;
     std::vector<gpu::ColorAttachment> colors;
     std::vector<TextureFormat> targets;
-    for (std::uint32_t i = 0; ids_ && i < 2; ++i)
+    std::uint32_t used = 2; // layers
+    for (const std::string& type : info_.types) used = std::max(used, 1 + find_particle_type(type)->vec4s_per_payload);
+    for (std::uint32_t i = 0; ids_ && i < used; ++i)
       layers.push_back(map.create_view({.dimension = gpu::TextureViewDimension::D2, .base_array_layer = i, .array_layer_count = 1}));
     for (const gpu::TextureView& layer : layers) {
       colors.push_back({.view = &layer, .load = load, .clear = {none, none, none, none}});
@@ -165,7 +174,7 @@ private:
     for (const ParticleDraw& particles : placed_.draws) {
       if (!selection_.draws(*particles.batch)) continue;
       if (ids_ && particles.affine)
-        fail(Exit::BadInput, "P018", light_loc_, fmt::format("'{}' is scaled unevenly; a map of casters holds spheres only", particles.batch->name),
+        fail(Exit::BadInput, "P018", light_loc_, fmt::format("'{}' is scaled unevenly; a map of casters holds shapes that are not", particles.batch->name),
              {"method = \"depth\" holds every shape."});
       ParticlePipelineKey key{.type = particles.batch->type, .phase = Phase::Shadow, .near_eye = particles.near_eye, .affine = particles.affine};
       key.orthographic = info_.view.projection == Projection::Orthographic;
@@ -173,6 +182,8 @@ private:
       key.per_particle_color = key.opaque_only;
       key.proxy_slack = ids_ ? thin_ : 0.0f;
       key.targets = targets;
+      key.written = 1 + find_particle_type(key.type)->vec4s_per_payload;
+      key.type_number = number_of(*find_particle_type(key.type));
       key.depth = depth.format();
       pass.set_pipeline(pipelines_->get(key));
       pass.set_bind_group(0, frame_group_);

@@ -22,19 +22,21 @@ constexpr double gap_factor = 256.0;
 struct Sorted { // particles in Morton order
   std::vector<std::uint32_t> order{}; // index in the caller's arrays
   std::vector<glm::dvec3> centers{};
-  std::vector<double> radii{};
+  std::vector<double> finest{};
 };
 
-Sorted sort_particles(std::span<const glm::dvec3> centers, std::span<const double> radii) {
+Sorted sort_particles(const ParticleArrays& particles) {
   Sorted s;
-  s.order = morton_order(centers);
-  s.centers.resize(centers.size());
-  s.radii.resize(centers.size());
-  parallel_parts(centers.size(), thread_count(centers.size(), chunks_per_thread * chunk_capacity),
+  const std::span<const double> finest = particles.finest.empty() ? particles.radii : particles.finest;
+  const std::size_t count = particles.centers.size();
+  s.order = morton_order(particles.centers);
+  s.centers.resize(count);
+  s.finest.resize(count);
+  parallel_parts(count, thread_count(count, chunks_per_thread * chunk_capacity),
                  [&](std::uint32_t, std::uint64_t begin, std::uint64_t end) {
                    for (std::uint64_t k = begin; k < end; ++k) {
-                     s.centers[k] = centers[s.order[k]];
-                     s.radii[k] = radii[s.order[k]];
+                     s.centers[k] = particles.centers[s.order[k]];
+                     s.finest[k] = finest[s.order[k]];
                    }
                  });
   return s;
@@ -55,12 +57,12 @@ struct Run {
 };
 
 Run measure(const Sorted& in, std::uint64_t begin, std::uint64_t end) {
-  Run run{begin, end, in.centers[begin], in.centers[begin], in.radii[begin], begin + 1, 0.0, 0.0};
+  Run run{begin, end, in.centers[begin], in.centers[begin], in.finest[begin], begin + 1, 0.0, 0.0};
   std::array<double, chunk_capacity> steps{};
   for (std::uint64_t k = begin + 1; k < end; ++k) {
     run.min = glm::min(run.min, in.centers[k]);
     run.max = glm::max(run.max, in.centers[k]);
-    run.smallest_radius = std::min(run.smallest_radius, in.radii[k]);
+    run.smallest_radius = std::min(run.smallest_radius, in.finest[k]);
     const glm::dvec3 step = glm::abs(in.centers[k] - in.centers[k - 1]);
     const double width = std::max({step.x, step.y, step.z});
     steps[k - begin - 1] = width;
@@ -125,8 +127,8 @@ float above(double x) {
   return f >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
 }
 
-void fill_chunk(const Sorted& in, std::span<const std::uint32_t> rows, std::span<const std::uint32_t> colors,
-                const Run& run, std::uint64_t c, ChunkSet& set) {
+void fill_chunk(const ParticleArrays& from, const Sorted& in, const Run& run, std::uint64_t c, ChunkSet& set) {
+  const std::uint64_t rest = set.vec4s_per_record - 1;
   Chunk chunk;
   chunk.origin = rounded_origin(run);
   chunk.count = static_cast<std::uint32_t>(run.end - run.begin);
@@ -134,13 +136,16 @@ void fill_chunk(const Sorted& in, std::span<const std::uint32_t> rows, std::span
   for (std::uint64_t k = run.begin; k < run.end; ++k) {
     const std::uint32_t i = in.order[k];
     const std::uint64_t place = c * chunk_capacity + (k - run.begin);
-    const glm::vec4 record(glm::vec3(in.centers[k] - chunk.origin), static_cast<float>(in.radii[k]));
-    set.records[place] = record;
+    const glm::vec4 record(glm::vec3(in.centers[k] - chunk.origin), static_cast<float>(from.radii[i]));
+    const auto to = set.records.begin() + static_cast<std::ptrdiff_t>(place * set.vec4s_per_record);
+    *to = record;
+    std::copy_n(from.rest.begin() + static_cast<std::ptrdiff_t>(i * rest), rest, to + 1);
     chunk.max_radius = std::max(chunk.max_radius, record.w);
-    set.rows[place] = rows[i];
-    if (!colors.empty()) set.colors[place] = colors[i];
-    low = glm::min(low, glm::dvec3(record) - double{record.w});
-    high = glm::max(high, glm::dvec3(record) + double{record.w});
+    set.rows[place] = from.rows[i];
+    if (!from.colors.empty()) set.colors[place] = from.colors[i];
+    const glm::dvec3 half = from.half.empty() ? glm::dvec3(double{record.w}) : from.half[i];
+    low = glm::min(low, glm::dvec3(record) - half);
+    high = glm::max(high, glm::dvec3(record) + half);
   }
   for (int k = 0; k < 3; ++k) {
     chunk.box_min[k] = below(low[k]);
@@ -151,25 +156,30 @@ void fill_chunk(const Sorted& in, std::span<const std::uint32_t> rows, std::span
 
 } // namespace
 
-ChunkSet build_spheres(std::span<const glm::dvec3> centers, std::span<const double> radii,
-                       std::span<const std::uint32_t> rows, std::span<const std::uint32_t> colors) {
+ChunkSet build_chunks(const ParticleArrays& particles) {
   ChunkSet set;
-  if (centers.empty()) return set;
-  const Sorted in = sort_particles(centers, radii);
+  set.vec4s_per_record = particles.vec4s_per_record;
+  if (particles.centers.empty()) return set;
+  const Sorted in = sort_particles(particles);
   const std::vector<Run> runs = make_runs(in);
   set.chunks.resize(runs.size());
-  set.records.assign(set.record_count(), glm::vec4(0.0f));
+  set.records.assign(set.record_count() * set.vec4s_per_record, glm::vec4(0.0f));
   set.rows.assign(set.record_count(), no_row);
-  if (!colors.empty()) set.colors.assign(set.record_count(), 0u);
+  if (!particles.colors.empty()) set.colors.assign(set.record_count(), 0u);
   parallel_parts(runs.size(), thread_count(runs.size(), chunks_per_thread),
                  [&](std::uint32_t, std::uint64_t begin, std::uint64_t end) {
-                   for (std::uint64_t c = begin; c < end; ++c) fill_chunk(in, rows, colors, runs[c], c, set);
+                   for (std::uint64_t c = begin; c < end; ++c) fill_chunk(particles, in, runs[c], c, set);
                  });
   for (const Chunk& chunk : set.chunks) {
     set.bounds.add(chunk.origin + glm::dvec3(chunk.box_min));
     set.bounds.add(chunk.origin + glm::dvec3(chunk.box_max));
   }
   return set;
+}
+
+ChunkSet build_spheres(std::span<const glm::dvec3> centers, std::span<const double> radii,
+                       std::span<const std::uint32_t> rows, std::span<const std::uint32_t> colors) {
+  return build_chunks({.centers = centers, .radii = radii, .rows = rows, .colors = colors});
 }
 
 } // namespace mote

@@ -42,8 +42,21 @@ struct ChunkSet {
   }
 };
 
-// Spheres. `rows[i]` is the row in the file of particle i; `colors` may be empty. Positions and radii must be
-// finite and radii > 0: the caller has left out (and counted) the rest. Deterministic; uses all cores.
+// Particles of any type as arrays. Everything must be finite, radii > 0: the caller has left out (and counted) the rest.
+struct ParticleArrays {
+  std::uint32_t vec4s_per_record{1};
+  std::span<const glm::dvec3> centers{};
+  std::span<const double> radii{};         // of bounding balls, which hold the particle as its float32 record says it
+  std::span<const double> finest{};        // the least measure of each: offsets must not be coarse against it; empty: the radii
+  std::span<const glm::dvec3> half{};      // half extents of boxes around the centers; empty: the radii
+  std::span<const glm::vec4> rest{};       // the records' vec4s behind the first, vec4s_per_record - 1 each
+  std::span<const std::uint32_t> rows{};   // in the file
+  std::span<const std::uint32_t> colors{}; // as ChunkSet::colors; may be empty
+};
+// Deterministic; uses all cores.
+ChunkSet build_chunks(const ParticleArrays& particles);
+
+// Spheres: records of one vec4.
 ChunkSet build_spheres(std::span<const glm::dvec3> centers, std::span<const double> radii,
                        std::span<const std::uint32_t> rows, std::span<const std::uint32_t> colors);
 

@@ -49,12 +49,14 @@ inline constexpr std::string_view no_cell = "S037";
 inline constexpr std::string_view needs_cylinders = "S038";
 inline constexpr std::string_view range_sampled = "S039";
 inline constexpr std::string_view alpha_range = "S040";
+inline constexpr std::string_view not_a_vector = "S041";
+inline constexpr std::string_view no_shape = "S042";
 } // namespace code
 
 struct SceneCode {
   std::string_view code{}, line{};
 };
-inline constexpr std::array<SceneCode, 40> scene_codes{{
+inline constexpr std::array<SceneCode, 42> scene_codes{{
     {code::scene_unreadable, "error: a scene file is missing, is a folder or may not be read"},
     {code::scene_syntax, "error: a scene file is not TOML"},
     {code::scene_unknown_key, "error: a key that no scene has"},
@@ -95,6 +97,8 @@ inline constexpr std::array<SceneCode, 40> scene_codes{{
     {code::needs_cylinders, "error: a molecule style that needs cylinders, which this version does not draw"},
     {code::range_sampled, "note: the range of a long series is that of some of its frames"},
     {code::alpha_range, "warning: opacities outside 0 to 1 are cut"},
+    {code::not_a_vector, "error: a direction or an end is asked of an attribute that is no vector"},
+    {code::no_shape, "warning: particles without a length, a direction or a measure that could be drawn are left out"},
 }};
 
 } // namespace mote

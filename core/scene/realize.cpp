@@ -4,6 +4,7 @@
 #include "core/data/series.hpp"
 #include "core/scene/assembly.hpp"
 #include "core/scene/codes.hpp"
+#include "core/scene/drawable.hpp"
 #include "core/scene/expression.hpp"
 #include "core/scene/particle_values.hpp"
 #include "core/scene/scene_source.hpp"
@@ -17,7 +18,6 @@
 namespace mote {
 namespace {
 
-constexpr double largest_coordinate = 1e30; // farther out, float32 in view space ends
 constexpr std::uint64_t most_rows = 0xFFFFFFFEu;
 
 std::shared_ptr<const data::Frame> generated_frame(const GeneratedName& name) {
@@ -27,84 +27,6 @@ std::shared_ptr<const data::Frame> generated_frame(const GeneratedName& name) {
   frame->columns.push_back({"position", 3, std::move(spheres.positions), ""});
   frame->columns.push_back({"radius", 1, std::move(spheres.radii), ""});
   return frame;
-}
-
-// What can be drawn of a frame: places in `centers` and the rest that belong together.
-struct Drawable {
-  std::vector<glm::dvec3> centers{};
-  std::vector<double> radii{};
-  std::vector<std::uint32_t> rows{}, colors{};
-};
-
-struct Skipped {
-  std::uint64_t position{}, radius{}, zero{}, negative{};
-  std::uint64_t negative_row{}; // the first one
-  double negative_radius{};
-};
-
-enum class Verdict : std::uint8_t { Draw, Skip };
-Verdict judge(const glm::dvec3& p, double r, std::uint64_t row, Skipped& skipped) {
-  const bool placed = std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate && std::abs(p.z) <= largest_coordinate;
-  if (r < 0.0) {
-    if (skipped.negative++ == 0) {
-      skipped.negative_row = row;
-      skipped.negative_radius = r;
-    }
-  } else if (!placed) {
-    ++skipped.position;
-  } else if (!(r <= largest_coordinate)) {
-    ++skipped.radius;
-  } else if (static_cast<float>(r) == 0.0f) {
-    ++skipped.zero;
-  } else {
-    return Verdict::Draw;
-  }
-  return Verdict::Skip;
-}
-
-Drawable choose(const FrameContext& context, std::vector<double> radii, std::vector<std::uint32_t> colors, Skipped& skipped) {
-  const data::Frame& frame = context.frame;
-  const data::Column& position = *frame.find("position");
-  Drawable out;
-  out.centers.resize(frame.count);
-  out.rows.resize(frame.count);
-  out.radii = std::move(radii);
-  out.colors = std::move(colors);
-  std::uint64_t kept = 0;
-  for (std::uint64_t row = 0; row < frame.count; ++row) {
-    if (!context.rows.empty() && !context.rows[row]) continue;
-    const glm::dvec3 p(position.number(row, 0), position.number(row, 1), position.number(row, 2));
-    if (judge(p, out.radii[row], row, skipped) == Verdict::Skip) continue;
-    out.centers[kept] = p;
-    out.radii[kept] = out.radii[row];
-    out.rows[kept] = static_cast<std::uint32_t>(row);
-    if (!out.colors.empty()) out.colors[kept] = out.colors[row];
-    ++kept;
-  }
-  out.centers.resize(kept);
-  out.radii.resize(kept);
-  out.rows.resize(kept);
-  if (!out.colors.empty()) out.colors.resize(kept);
-  return out;
-}
-
-void report(const Skipped& skipped, const FrameContext& origin, Diagnostics& diagnostics) {
-  const std::uint64_t count = origin.frame.count;
-  if (skipped.negative) {
-    const std::string more = skipped.negative > 1 ? fmt::format(", and {} more are negative", skipped.negative - 1) : "";
-    diagnostics.error(code::radius_negative, origin.contents,
-                      fmt::format("the radius of particle {} is '{}'{}", skipped.negative_row, skipped.negative_radius, more),
-                      {"Particles are counted from 0 in the order of the file"});
-  }
-  if (skipped.position)
-    diagnostics.warning(code::position_not_finite, origin.contents,
-                        fmt::format("{} of {} particles have no finite position and are left out", skipped.position, count));
-  if (skipped.radius)
-    diagnostics.warning(code::radius_not_finite, origin.contents,
-                        fmt::format("{} of {} particles have no finite radius and are left out", skipped.radius, count));
-  if (skipped.zero)
-    diagnostics.warning(code::radius_zero, origin.contents,
-                        fmt::format("{} of {} particles have radius 0 and draw as nothing", skipped.zero, count));
 }
 
 Bounds world_bounds(const ChunkSet& set, const glm::dmat4& world_from_data) {
@@ -117,23 +39,6 @@ Bounds world_bounds(const ChunkSet& set, const glm::dmat4& world_from_data) {
       out.add(glm::dvec3(world_from_data * glm::dvec4(chunk.origin + corner, 1.0)));
     }
   return out;
-}
-
-// The particles that `rows` marks (all, when it is empty), in their order.
-Drawable subset(const Drawable& all, const std::vector<bool>& rows) {
-  Drawable out;
-  for (std::size_t i = 0; i < all.rows.size(); ++i) {
-    if (!rows[all.rows[i]]) continue;
-    out.centers.push_back(all.centers[i]);
-    out.radii.push_back(all.radii[i]);
-    out.rows.push_back(all.rows[i]);
-    if (!all.colors.empty()) out.colors.push_back(all.colors[i]);
-  }
-  return out;
-}
-
-std::shared_ptr<const ChunkSet> chunks_of(const Drawable& d) {
-  return std::make_shared<ChunkSet>(build_spheres(d.centers, d.radii, d.rows, d.colors));
 }
 
 // Copies along the edges of the cell, the cell itself first.
@@ -158,6 +63,32 @@ std::vector<Instance> instances_of(const DataDesc& desc, const std::vector<glm::
   return out;
 }
 
+// Radii by the scene's rule; none where neither it nor the file says any and a type other than sphere has its own default.
+std::vector<double> radii_of(const FrameContext& context, const DataDesc& desc, GlyphMaker make, Diagnostics& diagnostics) {
+  if (make && desc.radius.rule == RadiusRule::Auto && !context.frame.find("radius")) return {};
+  return particle_radii(context, desc.radius, diagnostics);
+}
+
+// The largest reach of a particle from its row's position.
+double largest_reach(const FrameContext& context, const DataDesc& desc, Diagnostics& diagnostics) {
+  const GlyphMaker make = find_glyph_maker(desc.type);
+  const std::vector<double> radii = radii_of(context, desc, make, diagnostics);
+  double reach = 0.0;
+  if (!make) {
+    for (const double r : radii)
+      if (r <= largest_coordinate) reach = std::max(reach, r);
+    return reach;
+  }
+  const Glyphs glyphs = make(context, desc, radii, diagnostics);
+  const data::Column& position = *context.frame.find("position");
+  for (std::uint64_t row = 0; row < glyphs.bounds.size(); ++row) {
+    const glm::dvec3 p(position.number(row, 0), position.number(row, 1), position.number(row, 2));
+    const double r = glm::length(glyphs.centers[row] - p) + glyphs.bounds[row];
+    if (glyphs.verdicts[row] == Verdict::Draw && r <= largest_coordinate) reach = std::max(reach, r);
+  }
+  return reach;
+}
+
 // One batch for each group of rows that has copies of its own; one where nothing is copied.
 std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& context, Annotations& annotations, Diagnostics& diagnostics) {
   const data::Frame& frame = context.frame;
@@ -166,15 +97,18 @@ std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& contex
                       fmt::format("the file has {} particles; a data set can have {}", frame.count, most_rows));
     return {};
   }
-  std::vector<double> radii = particle_radii(context, desc.radius, diagnostics);
+  const GlyphMaker make = find_glyph_maker(desc.type);
+  std::vector<double> radii = radii_of(context, desc, make, diagnostics);
   ParticleColors colors = particle_colors(context, desc.color, desc.generated.has_value(), diagnostics);
   apply_opacity(context, desc.opacity, colors, diagnostics);
   const std::vector<Copies> groups = copies_of(frame, desc.assembly, context.name, diagnostics);
   const std::vector<glm::dmat4> replicas = replicas_of(desc, context, diagnostics);
-  if (radii.size() != frame.count || diagnostics.has_errors()) return {};
-  Skipped skipped;
-  const Drawable drawable = choose(context, std::move(radii), std::move(colors.packed), skipped);
-  report(skipped, context, diagnostics);
+  std::optional<Glyphs> glyphs;
+  if (make && !diagnostics.has_errors()) glyphs = make(context, desc, radii, diagnostics);
+  if ((!make && radii.size() != frame.count) || diagnostics.has_errors()) return {};
+  const std::string type = glyphs ? glyphs->type : desc.type;
+  const Drawable drawable = glyphs ? choose(context, std::move(*glyphs), radii, std::move(colors.packed), diagnostics)
+                                   : choose(context, std::move(radii), std::move(colors.packed), diagnostics);
   if (!context.rows.empty() && drawable.rows.empty() && frame.count > 0)
     diagnostics.warning(code::selection_empty, desc.select->loc, fmt::format("the selection '{}' leaves none of {} particles", desc.select->value, frame.count));
   if (colors.key && std::find(annotations.keys.begin(), annotations.keys.end(), *colors.key) == annotations.keys.end())
@@ -183,7 +117,7 @@ std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& contex
   for (const Copies& group : groups) {
     Batch batch;
     batch.name = context.name;
-    batch.type = desc.type;
+    batch.type = type;
     batch.chunks = chunks_of(group.rows.empty() ? drawable : subset(drawable, group.rows));
     batch.instances = instances_of(desc, replicas, group.transforms);
     batch.material = desc.material;
@@ -292,8 +226,7 @@ private:
       const FrameContext context = this->context(i, *first);
       reach.emplace();
       Diagnostics ignored; // what is wrong is told for the frame that is drawn
-      for (const double r : particle_radii(context, data.radius, ignored))
-        if (r <= largest_coordinate) reach->radius = std::max(reach->radius, r);
+      reach->radius = largest_reach(context, data, ignored);
       for (const Copies& copies : copies_of(*first, data.assembly, context.name, ignored))
         for (const Instance& instance : instances_of(data, replicas_of(data, context, ignored), copies.transforms))
           reach->transforms.push_back(instance.world_from_data);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One [[data]] table of a scene file: files, type, selection, style, cell, material, transform. Colors, radii and
 // opacities are in scene_mapping.cpp.
+#include "core/scene/glyphs.hpp"
 #include "core/scene/scene_parser.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +15,6 @@ using config::Kind;
 using config::Node;
 using config::TableReader;
 
-const std::vector<std::string> particle_types{"sphere"};
 const std::vector<std::string> shading_models{"lambert", "phong", "blinn_phong"}; // order of ShadingModel
 
 Material read_material(TableReader& outer) {
@@ -125,9 +125,10 @@ DataDesc read_data(const Node& table, std::size_t index, const std::filesystem::
   DataDesc data;
   data.loc = table.loc;
   read_file(reader, folder, data);
-  (void)reader.word("type", particle_types);
+  if (const auto type = reader.word("type", scene_particle_types())) data.type = scene_particle_types()[*type];
   const bool linear = read_color_space(reader, inherited_linear);
   data.radius = read_radius(reader);
+  read_shape(reader, data);
   data.color = read_particle_color(reader, linear);
   data.opacity = read_opacity(reader, data.alpha);
   if (const auto select = reader.text("select")) data.select = Located<std::string>{*select, reader.find("select")->loc};

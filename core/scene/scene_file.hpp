@@ -73,6 +73,16 @@ enum class Wrapping : std::uint8_t { AsInFile, Wrap, Unwrap };
 // How molecules are shown. The last two need cylinders.
 enum class MoleculeStyle : std::uint8_t { None, Spacefill, BallAndStick, Licorice };
 
+// Of types with an axis (capsule, cylinder, cone, arrow). Measures: Auto where the type's own default applies.
+enum class Anchor : std::uint8_t { Center, Start, End }; // which point of the axis the position is
+struct AxialDesc {
+  std::optional<Located<std::string>> direction{}, end{}; // vector columns; neither: the column "direction"
+  std::optional<glm::dvec3> constant{};                   // one direction for all
+  double scale{1.0};                                      // of the vectors' own lengths
+  RadiusDesc length{};                                    // Auto: the vector's length times `scale`
+  Anchor anchor{Anchor::Center};
+};
+
 struct CellDesc { // of the periodic cell
   bool drawn{};
   glm::dvec3 color{0.25}; // working space
@@ -87,6 +97,7 @@ struct DataDesc {
   std::optional<GeneratedName> generated{};
   std::string type{"sphere"};
   RadiusDesc radius{};
+  AxialDesc axial{};
   ColorDesc color{};
   double alpha{1.0};
   AlphaDesc opacity{};                       // Constant: `alpha`

@@ -137,21 +137,21 @@ std::optional<std::uint32_t> read_encoded_color(TableReader& reader, std::string
   return packed;
 }
 
-RadiusDesc read_radius(TableReader& reader) {
-  const Node* node = reader.find("radius");
+RadiusDesc read_radius(TableReader& reader, std::string_view key) {
+  const Node* node = reader.find(key);
   if (!node) return {};
   if (node->kind == Kind::Text) {
-    if (node->text == "element") return {RadiusRule::Element, 0.0, {}, node->loc};
+    if (node->text == "element" && key == "radius") return {RadiusRule::Element, 0.0, {}, node->loc};
     RadiusDesc radius{RadiusRule::Attribute, 0.0, {}, node->loc};
     radius.mapping.attribute = {node->text, node->loc};
     return radius;
   }
-  if (node->kind == Kind::Table) return read_radius_table(*node, reader.name_of("radius"), reader.diagnostics());
+  if (node->kind == Kind::Table) return read_radius_table(*node, reader.name_of(key), reader.diagnostics());
   if (node->kind != Kind::Integer && node->kind != Kind::Real) {
-    reader.wrong_type(*node, "radius", "a number, an attribute's name, \"element\", or { attribute, range, to }");
+    reader.wrong_type(*node, key, key == "radius" ? "a number, an attribute's name, \"element\", or { attribute, range, to }" : "a number, an attribute's name, or { attribute, range, to }");
     return {};
   }
-  const auto number = reader.as_number(*node, "radius", config::positive);
+  const auto number = reader.as_number(*node, key, config::positive);
   return number ? RadiusDesc{RadiusRule::Constant, *number, {}, node->loc} : RadiusDesc{};
 }
 

@@ -23,7 +23,10 @@ std::optional<glm::dvec4> as_color(config::TableReader& reader, const config::No
 // "#rrggbb" and the like as 0xRRGGBB, sRGB-encoded whatever `color_space` says; alpha is refused.
 std::optional<std::uint32_t> read_encoded_color(config::TableReader& reader, std::string_view key);
 
-RadiusDesc read_radius(config::TableReader& reader);
+// A number, an attribute's name, or { attribute, range, to }; `key` "radius" also takes "element".
+RadiusDesc read_radius(config::TableReader& reader, std::string_view key = "radius");
+// The keys of types that are more than a center and a radius; others are left unread. Needs data.type.
+void read_shape(config::TableReader& reader, DataDesc& data);
 ColorDesc read_particle_color(config::TableReader& reader, bool linear);
 // A number goes to `alpha`, everything else into the answer.
 AlphaDesc read_opacity(config::TableReader& reader, double& alpha);

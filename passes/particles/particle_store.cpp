@@ -6,8 +6,11 @@
 #include "passes/particles/sprites.hpp"
 #include "passes/particles/tiles/tile_placement.hpp"
 
+#include <glm/gtc/quaternion.hpp>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 namespace mote::passes {
@@ -173,13 +176,20 @@ std::vector<Run> ParticleStore::Impl::place_all(const Scene& scene, const View& 
 }
 
 namespace {
-// Half axes of what spheres become, where the placement is no similarity.
+// A placement that is no similarity, as U S V^T: S the half axes of what the unit sphere becomes, U their directions, V how
+// records are turned, as modified Rodrigues parameters (Shuster, J. Astronaut. Sci. 41(4), 1993). Where it mirrors, S is negative.
 void set_shape(const glm::dmat3& linear, BatchBlock& block) {
   const PrincipalAxes shape = principal_axes(linear);
-  block.linear0_scale.w = static_cast<float>(shape.lengths.x);
-  block.linear1.w = static_cast<float>(shape.lengths.y);
-  block.linear2.w = static_cast<float>(shape.lengths.z);
+  const glm::dvec3 s = glm::determinant(linear) < 0.0 ? -shape.lengths : shape.lengths;
+  block.linear0_scale.w = static_cast<float>(s.x);
+  block.linear1.w = static_cast<float>(s.y);
+  block.linear2.w = static_cast<float>(s.z);
   for (int i = 0; i < 6; ++i) block.axes[static_cast<std::size_t>(i)] = static_cast<float>(shape.axes[i / 3][i % 3]);
+  glm::dmat3 u = shape.axes;
+  for (int k = 0; k < 3; ++k) u[k] /= s[k];
+  const glm::dquat q = glm::normalize(glm::quat_cast(glm::transpose(linear) * u));
+  const glm::dvec3 turn = glm::dvec3(q.x, q.y, q.z) * (q.w < 0.0 ? -1.0 : 1.0) / (1.0 + std::abs(q.w));
+  for (int k = 0; k < 3; ++k) block.turn[static_cast<std::size_t>(k)] = static_cast<float>(turn[k]);
 }
 } // namespace
 
@@ -257,7 +267,7 @@ TileDraw near_draw(TileDraw draw) {
 }
 } // namespace
 
-void ParticleStore::place_tiles(const Scene& scene, const View& view, const TilePlacing& placing, TiledView& out, std::uint32_t slot) const {
+void ParticleStore::place_tiles(const Scene& scene, const View& view, std::string_view type, const TilePlacing& placing, TiledView& out, std::uint32_t slot) const {
   Impl::Placements& placed = impl_->placements[slot];
   placed.chunks.clear();
   placed.payloads.clear();
@@ -276,9 +286,15 @@ void ParticleStore::place_tiles(const Scene& scene, const View& view, const Tile
   for (const Batch& batch : scene.batches)
     for (std::size_t k = 0; k < batch.instances.size(); ++k)
       for (const Slice& slice : impl_->residents.at(batch.chunks.get()).slices) {
+        chunks.rest.far.clear(), chunks.rest.near.clear(), chunks.rest.payloads.clear();
+        if (batch.type != type) {
+          place_chunks(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler, chunks.rest);
+          total += slice.chunk_count;
+          placed.append(runs, batch, k, slice, chunks.rest);
+          continue;
+        }
         const auto [known, added] = slices.try_emplace(&slice, static_cast<std::uint32_t>(out.slices.size()));
         if (added) out.slices.push_back({slice.records, slice.rows, slice.colors});
-        chunks.rest.far.clear(), chunks.rest.near.clear(), chunks.rest.payloads.clear();
         place_for_tiles(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler,
                         {static_cast<std::uint32_t>(out.draws.size()), placing.exact, placing.margin}, chunks);
         out.draws.push_back(tile_draw(batch, k, view, out.materials));

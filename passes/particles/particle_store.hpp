@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 namespace mote::passes {
@@ -29,9 +30,10 @@ struct BatchBlock {
   glm::vec4 linear0_scale{1, 0, 0, 1}, linear1{0, 1, 0, 0}, linear2{0, 0, 1, 0};
   glm::vec4 color{1}, material{1, 1, 0, 32};
   std::uint32_t id_base{}, first_placement{}, first_near{};
-  std::array<float, 6> axes{}; // affine draws
+  std::array<float, 6> axes{}; // affine draws: see shaders/particles/own_space.glsl
+  std::array<float, 3> turn{};
 };
-static_assert(sizeof(BatchBlock) == 116);
+static_assert(sizeof(BatchBlock) == 128); // what every device holds
 // What all draws of an instance share; where its placements start is left at 0.
 BatchBlock batch_block(const Batch& batch, std::size_t instance, const View& view);
 
@@ -85,8 +87,9 @@ public:
   // one for each view that is alive at the same time (camera, lights). Const: placements are a cache.
   // With a `largest_point` (the device's limit, in pixels) chunks that may be drawn as points are draws of their own.
   PlacedView place(const Scene& scene, const View& view, std::uint32_t slot = 0, double largest_point = 0) const;
-  // The same for the compute expansion; `out` keeps its memory between frames.
-  void place_tiles(const Scene& scene, const View& view, const TilePlacing& placing, TiledView& out, std::uint32_t slot = 0) const;
+  // The same for the compute expansion; `out` keeps its memory between frames. Tiles hold one particle type; batches of
+  // others are among the rest.
+  void place_tiles(const Scene& scene, const View& view, std::string_view type, const TilePlacing& placing, TiledView& out, std::uint32_t slot = 0) const;
 
   [[nodiscard]] const gpu::BindGroupLayout& layout() const; // of set 1
   // What this frame's shadow maps were drawn from.

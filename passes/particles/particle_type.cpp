@@ -10,8 +10,12 @@ namespace mote::passes {
 namespace {
 
 // One line a type.
-const std::array<ParticleType, 1> types{{
-    {"sphere", "exact sphere: center, radius", 1, {Expansion::Vertex, Expansion::Geometry, Expansion::Compute, Expansion::Point}, {Phase::Opaque, Phase::Surface, Phase::Transparent, Phase::Shadow}},
+const std::vector<Expansion> rectangles{Expansion::Vertex, Expansion::Geometry, Expansion::Compute}; // a point's square suits spheres only
+const std::vector<Expansion> with_points{Expansion::Vertex, Expansion::Geometry, Expansion::Compute, Expansion::Point};
+const std::vector<Phase> all_phases{Phase::Opaque, Phase::Surface, Phase::Transparent, Phase::Shadow};
+const std::array<ParticleType, 2> types{{
+    {"sphere", "center, radius", 1, 1, true, with_points, all_phases},
+    {"capsule", "a segment and a radius: a cylinder with round ends", 2, 2, false, rectangles, all_phases},
 }};
 
 constexpr std::array expansions{Expansion::Vertex, Expansion::Geometry, Expansion::Compute, Expansion::Point};
@@ -35,6 +39,8 @@ const ParticleType* find_particle_type(std::string_view name) {
   const auto it = std::find_if(types.begin(), types.end(), [&](const ParticleType& t) { return t.name == name; });
   return it == types.end() ? nullptr : &*it;
 }
+
+std::uint32_t number_of(const ParticleType& type) { return static_cast<std::uint32_t>(&type - types.data()); }
 
 std::vector<std::string> particle_type_names() {
   std::vector<std::string> names;

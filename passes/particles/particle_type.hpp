@@ -20,16 +20,21 @@ namespace mote::passes {
 enum class Phase : std::uint8_t { Opaque, Surface, Transparent, Shadow };
 std::string_view to_string(Phase phase);
 
+constexpr std::uint32_t most_payload_vec4s = 4; // a texel of a shadow map holds them
+
 struct ParticleType {
   std::string name{};             // also the shader folder
   std::string summary{};
   std::uint32_t vec4s_per_record{};
+  std::uint32_t vec4s_per_payload{}; // CASTER_VEC4S of its shader; at most most_payload_vec4s
+  bool analytic_edges{};             // its shader's outline() is more than covered or not
   std::vector<Expansion> expansions{};
   std::vector<Phase> phases{};
 };
 
 std::span<const ParticleType> particle_types();
 const ParticleType* find_particle_type(std::string_view name);
+std::uint32_t number_of(const ParticleType& type); // its place in the list
 std::vector<std::string> particle_type_names();
 bool supports(const ParticleType& type, Expansion expansion, Phase phase);
 

@@ -49,7 +49,8 @@ std::vector<gpu::SpecializationConstant> particle_constants(const ParticlePipeli
           gpu::spec(2, key.local_lights),       gpu::spec(3, key.specular_model),
           gpu::spec(4, key.per_particle_color), gpu::spec(5, key.show_depth_violation),
           gpu::spec(6, key.head_light_only),    gpu::spec(20, key.opaque_only),
-          gpu::spec(21, key.states.blend != 0), gpu::spec(22, static_cast<std::uint32_t>(key.states.cull)), gpu::spec(7, key.proxy_slack)};
+          gpu::spec(21, key.states.blend != 0), gpu::spec(22, static_cast<std::uint32_t>(key.states.cull)), gpu::spec(7, key.proxy_slack),
+          gpu::spec(8, key.type_number)};
 }
 
 ParticlePipelineKey key_for_all(const Scene& scene, const View& view, bool& mixed) {
@@ -104,7 +105,8 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   const gpu::ShaderModule geometry_module = geometry ? module(folder + "/geometry.geom") : gpu::ShaderModule();
   const std::vector<gpu::SpecializationConstant> constants = particle_constants(key);
   std::vector<gpu::ColorTargetState> targets;
-  for (const gpu::TextureFormat format : key.targets) targets.push_back({.format = format});
+  for (const gpu::TextureFormat format : key.targets)
+    targets.push_back({.format = format, .write_mask = targets.size() < key.written ? gpu::ColorWrite::All : gpu::ColorWrite::None});
   if (!targets.empty()) targets[0].blend = unpack_blend(key.states.blend); // the AOVs behind it never blend
 
   gpu::RenderPipelineDescriptor descriptor{.label = "particles"};

@@ -37,6 +37,8 @@ struct ParticlePipelineKey {
   DrawStates states{};
   float proxy_slack{}; // pixels
   bool edges{};        // phase Surface: coverage, too
+  std::uint32_t written{0xFFFFFFFF}; // targets from this one on are left alone
+  std::uint32_t type_number{};       // phase Shadow: what a map of casters says
   std::vector<gpu::TextureFormat> targets{};
   gpu::TextureFormat depth{};
   auto operator<=>(const ParticlePipelineKey&) const = default;

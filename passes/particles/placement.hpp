@@ -32,8 +32,8 @@ private:
   int count_{};
 };
 
-// A particle near the eye, placed in double; its payload in shaders with NEAR_EYE. Where the placement is no
-// similarity, the radius is the record's and the power that of the eye where the ellipsoid is the unit sphere.
+// The center and bounding ball of a particle near the eye, placed in double; what shaders with NEAR_EYE begin with. Where the
+// placement is no similarity, the radius is the record's and the power that of the eye where the ellipsoid is the unit sphere.
 struct NearPayload {
   glm::vec4 center_radius{0}; // view space
   glm::vec4 rest_power{0};    // xyz: what rounding took from the center; w: |center|^2 - radius^2

@@ -3,6 +3,7 @@
 
 #include "passes/full_screen.hpp"
 #include "passes/particles/frame_uniform.hpp"
+#include "passes/particles/particle_type.hpp"
 #include "passes/scratch.hpp"
 #include "shaders/embedded.hpp"
 
@@ -63,6 +64,8 @@ void ShadowMasks::update(const std::vector<MappedLight>& lights, const View& cam
     device_.queue().write_buffer(layer.block, 0, std::as_bytes(std::span(&block, 1)));
     layer.orthographic = info.view.projection == Projection::Orthographic;
     layer.pcf = info.pcf;
+    layer.types = info.types;
+    if (layer.types.empty()) layer.types.emplace_back("sphere"); // nothing casts, and that is found
     if (layer.group && layer.map == lights[i].map && layer.ids == info.ids) continue;
     layer.map = lights[i].map;
     layer.ids = info.ids;
@@ -75,11 +78,16 @@ void ShadowMasks::update(const std::vector<MappedLight>& lights, const View& cam
 const gpu::RenderPipeline& ShadowMasks::pipeline(const Key& key) {
   gpu::RenderPipeline& found = pipelines_[key];
   if (found) return found;
-  const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(16, key.light_orthographic), gpu::spec(17, key.pcf)};
-  const std::array targets{gpu::ColorTargetState{.format = TextureFormat::R8Unorm}};
+  std::vector constants{gpu::spec(0, key.orthographic), gpu::spec(16, key.light_orthographic), gpu::spec(17, key.pcf)};
+  if (key.ids) constants.push_back(gpu::spec(18, number_of(*find_particle_type(key.type))));
+  gpu::ColorTargetState target{.format = TextureFormat::R8Unorm};
+  const gpu::BlendComponent product{gpu::BlendFactor::Dst, gpu::BlendFactor::Zero, gpu::BlendOperation::Add};
+  if (key.further) target.blend = gpu::BlendState{product, product};
+  const std::array targets{target};
+  const std::string ids = key.type + "/shadow/mask.frag";
   found = full_screen_pipeline(device_, {.label = "shadow.mask",
                                          .layout = key.ids ? &ids_pipeline_layout_ : &depth_pipeline_layout_,
-                                         .fragment = key.ids ? "shadow/mask.frag/ids" : "shadow/mask.frag/depth",
+                                         .fragment = key.ids ? std::string_view(ids) : std::string_view("shadow/mask.frag/depth"),
                                          .constants = constants,
                                          .targets = targets});
   return found;
@@ -93,15 +101,25 @@ void ShadowMasks::record(gpu::CommandEncoder& encoder, const gpu::BindGroup& fra
     surface_ = device_.create_bind_group({.label = "shadow.surface", .layout = &surface_layout_, .entries = entries});
   }
   for (const Layer& layer : layers_) {
-    const std::array colors{gpu::ColorAttachment{.view = &layer.target, .load = gpu::LoadOp::DontCare}};
-    gpu::RenderPass pass = encoder.begin_render_pass({.label = "shadow.mask", .colors = colors});
-    pass.set_pipeline(pipeline({layer.ids, orthographic, layer.orthographic, layer.ids ? 0u : layer.pcf}));
-    pass.set_bind_group(0, frame);
-    pass.set_bind_group(1, surface_);
-    pass.set_bind_group(2, layer.group);
-    pass.draw(3);
-    pass.end();
+    Key key{.ids = layer.ids, .orthographic = orthographic, .light_orthographic = layer.orthographic, .pcf = layer.ids ? 0u : layer.pcf};
+    if (!layer.ids) draw(encoder, frame, layer, key);
+    for (std::size_t i = 0; layer.ids && i < layer.types.size(); ++i) {
+      key.type = layer.types[i];
+      key.further = i > 0;
+      draw(encoder, frame, layer, key);
+    }
   }
+}
+
+void ShadowMasks::draw(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame, const Layer& layer, const Key& key) {
+  const std::array colors{gpu::ColorAttachment{.view = &layer.target, .load = key.further ? gpu::LoadOp::Load : gpu::LoadOp::DontCare}};
+  gpu::RenderPass pass = encoder.begin_render_pass({.label = "shadow.mask", .colors = colors});
+  pass.set_pipeline(pipeline(key));
+  pass.set_bind_group(0, frame);
+  pass.set_bind_group(1, surface_);
+  pass.set_bind_group(2, layer.group);
+  pass.draw(3);
+  pass.end();
 }
 
 } // namespace mote::passes

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How much of each mapped light reaches each pixel's surface: one full-screen pass a shadow map,
 // from the textures of phase `surface` into one layer of an r8unorm array. Any number of lights.
-// Called by SurfaceShading; knows no particle types beyond the functions of shaders/shadow/casters.glsl.
+// A map of casters is asked once for every particle type among them.
+// Called by SurfaceShading.
 #pragma once
 
 #include "core/gpu/gpu.hpp"
@@ -49,13 +50,17 @@ private:
     gpu::Texture map{};
     bool ids{}, orthographic{};
     std::uint32_t pcf{};
+    std::vector<std::string> types{};
   };
   struct Key {
     bool ids{}, orthographic{}, light_orthographic{};
     std::uint32_t pcf{};
+    std::string type{}; // ids: of the casters
+    bool further{};     // multiplied with what other types let through
     auto operator<=>(const Key&) const = default;
   };
   const gpu::RenderPipeline& pipeline(const Key& key);
+  void draw(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame, const Layer& layer, const Key& key);
 
   gpu::Device device_;
   gpu::BindGroupLayout surface_layout_, ids_layout_, depth_layout_;

@@ -19,7 +19,9 @@ TileShadows::TileShadows(gpu::Device device) : device_(std::move(device)) {
 }
 
 bool TileShadows::can_hold(const std::vector<MappedLight>& lights) {
-  return lights.size() <= most_maps && std::all_of(lights.begin(), lights.end(), [](const MappedLight& light) { return light.info.ids; });
+  return lights.size() <= most_maps && std::all_of(lights.begin(), lights.end(), [](const MappedLight& light) {
+           return light.info.ids && std::all_of(light.info.types.begin(), light.info.types.end(), [](const std::string& type) { return type == "sphere"; });
+         });
 }
 
 void TileShadows::update(const std::vector<MappedLight>& lights, const View& camera) {

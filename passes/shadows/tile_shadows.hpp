@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shadow maps as the tiles' cast kernel asks them when it shades at once what it has cast: bindings and constants of
-// shaders/shadow/lit.glsl. What that cannot hold (maps of method `depth`, more than four) is shaded later, by SurfaceShading.
+// shaders/shadow/lit.glsl. What that cannot hold (maps of method `depth` or of casters that are no spheres, more than four) is shaded later, by SurfaceShading.
 #pragma once
 
 #include "core/gpu/gpu.hpp"

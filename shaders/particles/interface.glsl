@@ -3,8 +3,13 @@
 // which the include path resolves to the folder of the particle type:
 //
 //   const int record_vec4s, payload_vec4s
+//   #define CASTER_VEC4S                             payload_vec4s without NEAR_EYE, whose payload starts with the same: what a
+//                                                    texel of a shadow map keeps of a caster; at most 4
 //   struct Particle                                  view-space values of one particle
 //   Particle place(vec4 record[], Placement)         record (chunk-relative) to view space; not with NEAR_EYE
+//   Particle place_near(vec4 record[], Placement, vec4 near[3])   NEAR_EYE: the center comes placed: near[0] = (center, radius of
+//                                                    the bounding ball), near[1].xyz = center - float32(center); near[1].w and
+//                                                    near[2].x: |center|^2 - radius^2 as a sum of two floats
 //   void pack(Particle, out vec4 payload[]), Particle unpack(vec4 payload[])
 //   bool drawable(Particle)                          false: radius 0 and the like, drawn as nothing
 //   Proxy proxy(Particle)                            bounds on the image
@@ -12,6 +17,9 @@
 //   bool passes_thin(Ray, Particle, Interval, float radius)   thinner than that and passed nearer than that; after a miss, too
 //   Outline outline(Ray, Particle, Interval)         where the ray's pixel lies to the outline; for analytic edges
 //   vec3 outward_normal(Ray, Particle, Interval, bool exit)   at one end of the interval; unit
+//
+// own_space.glsl has a particle's own space, in which all but the sphere say these, bounds.glsl the proxies of balls, discs
+// and hulls, axial.glsl what types with an axis share.
 //
 // and for the tiles of the compute expansion (TILES), where one particle is tested against many pixels:
 //
@@ -43,10 +51,11 @@ struct Proxy {
 };
 Proxy empty_proxy() { return Proxy(vec2(1e30), vec2(-1e30), 1.0); }
 
-// Where a ray runs inside a solid, as view depths, and what the type wants to remember for the normal.
+// Where a ray runs inside a solid, as view depths, and what the type wants to remember for the normals. Of a solid that is
+// not convex (arrow): from where it is first entered to where it is left for good.
 struct Interval {
   float t_in, t_out;
-  vec4 local;
+  vec4 local, ends;
 };
 
 // A pixel's place to a particle's outline on the image; everything in pixels.

@@ -2,19 +2,19 @@
 // What the raster expansions (vertex, geometry) and their phases share: a particle loaded from the buffers of
 // its batch, and its proxy as a rectangle in clip space.
 //
-// With NEAR_EYE the particle was placed in double on the CPU (passes/particles/placement.hpp) and arrives as its
-// payload: for chunks so near to the eye that float32 placement would show.
+// With NEAR_EYE the particle's center was placed in double on the CPU (passes/particles/placement.hpp): for chunks so near to
+// the eye that float32 placement would show.
 #ifndef MOTE_PARTICLE_GLSL
 #define MOTE_PARTICLE_GLSL
 
 // Mirrors BatchBlock of passes/particles/particle_store.hpp.
 //   linear0..2_scale: columns of Placement.linear; w of the first: scale; with AFFINE (a placement that is no
-//                     similarity) the three w: lengths of the half axes that the unit sphere gets
+//                     similarity) the three w: lengths of the half axes that the unit sphere gets, negative where it mirrors
 //   color:            working space, straight alpha; rgb used where particles have no color of their own
 //   material:         ambient, diffuse, specular, exponent
 //   id_base:          id of row 0 of this instance
 //   first_near:       NEAR_EYE: place of the draw's first particle among the near payloads
-//   axes:             AFFINE: directions of the first two half axes, view space; the type looks at them
+//   axes, turn:       AFFINE: directions of the first two half axes, view space, and how records are turned (own_space.glsl)
 #define BATCH_FIELDS \
   vec4 linear0_scale; \
   vec4 linear1; \
@@ -24,7 +24,8 @@
   uint id_base; \
   uint first_placement; \
   uint first_near; \
-  float axes[6];
+  float axes[6]; \
+  float turn[3];
 
 #ifdef ORDERED
 // Particles of any batch in one draw (passes/particles/ordered_store.hpp): `batch` is a row of a table, chosen by
@@ -48,7 +49,7 @@ layout(std430, set = 1, binding = 2) readonly buffer Colors { uint colors[]; };
 layout(std430, set = 1, binding = 3) readonly buffer Placements { uvec4 placements[]; };
 
 #ifdef NEAR_EYE
-layout(std430, set = 1, binding = 4) readonly buffer NearPayloads { vec4 near_payloads[]; };
+layout(std430, set = 1, binding = 4) readonly buffer NearCenters { vec4 near_centers[]; }; // 3 a particle: NearPayload
 #endif
 
 const uint chunk_capacity = 64u;
@@ -56,6 +57,7 @@ const uint chunk_capacity = 64u;
 // States of the pass (passes/states.hpp, passes/particles/selection.hpp).
 layout(constant_id = 20) const bool opaque_only = false; // particles of alpha below 1 draw as nothing
 layout(constant_id = 21) const bool blended = false;     // the fragment's alpha is the particle's, else 1
+layout(constant_id = 8) const uint type_number = 0u;     // phase shadow: the type, as a map of casters says it
 layout(constant_id = 22) const int cull = 0;             // surfaces left out: 0 none, 1 front, 2 back
 
 bool selected(float alpha) { return !opaque_only || alpha >= 1.0; }
@@ -76,16 +78,15 @@ Loaded load_particle(uint index) {
   uvec4 placed = placements[batch.first_placement + index / chunk_capacity];
   uint slot = placed.w * chunk_capacity + index % chunk_capacity;
   Loaded loaded;
-#ifdef NEAR_EYE
-  vec4 payload[payload_vec4s];
-  uint first = (batch.first_near + index) * uint(payload_vec4s);
-  for (int i = 0; i < payload_vec4s; ++i) payload[i] = near_payloads[first + uint(i)];
-  loaded.particle = unpack(payload);
-#else
   vec4 record[record_vec4s];
   for (int i = 0; i < record_vec4s; ++i) record[i] = records[slot * uint(record_vec4s) + uint(i)];
   Placement at = Placement(mat3(batch.linear0_scale.xyz, batch.linear1.xyz, batch.linear2.xyz),
                            uintBitsToFloat(placed.xyz), batch.linear0_scale.w);
+#ifdef NEAR_EYE
+  vec4 near[3];
+  for (int i = 0; i < 3; ++i) near[i] = near_centers[(batch.first_near + index) * 3u + uint(i)];
+  loaded.particle = place_near(record, at, near);
+#else
   loaded.particle = place(record, at);
 #endif
   loaded.color = batch.color;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Does a caster that a shadow map names stand between a point and the light? One function a particle type, on the
-// payload that the map stores, so that a receiver of any type may test casters of any type.
+// Shadow rays against spheres, for the masks (through the particle type) and for kernels that ask maps of spheres themselves.
 #ifndef MOTE_CASTERS_GLSL
 #define MOTE_CASTERS_GLSL
 

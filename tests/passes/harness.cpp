@@ -118,7 +118,8 @@ Picture GpuTest::check(const Scene& scene, const View& view, const Bars& bars) {
   EXPECT_EQ(vertex.depth, geometry.depth);
   EXPECT_EQ(vertex.normal, geometry.normal);
   EXPECT_EQ(vertex.display, geometry.display);
-  const Picture point = draw(scene, view, {.expansion = Expansion::Point});
+  const bool points = std::all_of(scene.batches.begin(), scene.batches.end(), [](const Batch& batch) { return batch.type == "sphere"; });
+  const Picture point = points ? draw(scene, view, {.expansion = Expansion::Point}) : vertex;
   EXPECT_EQ(vertex.id, point.id);
   EXPECT_EQ(vertex.depth, point.depth);
   EXPECT_EQ(vertex.normal, point.normal);
@@ -179,6 +180,41 @@ Scene scene_of(const std::vector<glm::dvec4>& spheres, const std::vector<std::ui
   return scene;
 }
 
+Scene glyph_scene(const std::string& type, const std::vector<Glyph>& glyphs, const std::vector<std::uint32_t>& colors) {
+  std::vector<glm::dvec3> centers;
+  std::vector<double> bounds, finest;
+  std::vector<glm::vec4> rest;
+  std::vector<std::uint32_t> rows, kept;
+  Scene scene;
+  for (std::uint32_t i = 0; i < glyphs.size(); ++i) {
+    centers.push_back(glyphs[i].center);
+    bounds.push_back(glyphs[i].bound);
+    finest.push_back(glyphs[i].finest);
+    rest.insert(rest.end(), glyphs[i].rest.begin(), glyphs[i].rest.end());
+    rows.push_back(i);
+    if (!colors.empty()) kept.push_back(colors[i % colors.size()]);
+    scene.bounds.add(centers.back(), bounds.back());
+  }
+  Batch batch;
+  batch.type = type;
+  batch.chunks = std::make_shared<ChunkSet>(build_chunks({.vec4s_per_record = 1 + static_cast<std::uint32_t>(glyphs.at(0).rest.size()), .centers = centers,
+                                                          .radii = bounds, .finest = finest, .rest = rest, .rows = rows, .colors = kept}));
+  batch.instances.resize(1);
+  batch.row_count = glyphs.size();
+  scene.batches.push_back(std::move(batch));
+  scene.lights.push_back({.kind = LightKind::Headlight, .intensity = 0.8});
+  return scene;
+}
+
+Scene joined(Scene scene, const Scene& other) {
+  for (Batch batch : other.batches) {
+    batch.id_base = scene.particle_count();
+    scene.batches.push_back(std::move(batch));
+  }
+  scene.bounds.add(other.bounds);
+  return scene;
+}
+
 namespace {
 View finish(Camera camera, const Scene& scene, glm::dvec3 eye, glm::dvec3 target, Size2d size) {
   camera.eye = eye;
@@ -224,7 +260,7 @@ void expect_equals_reference(const Picture& picture, const Scene& scene, const V
     depth.push_back(std::abs(picture.depth[i] - reference.depth[i]) / reference.depth[i]);
     const glm::dvec3 n(picture.normal[i]);
     const double angle = std::atan2(glm::length(glm::cross(n, reference.normal[i])), glm::dot(n, reference.normal[i]));
-    beyond += angle > 1e-6 + 1.5e-4 / reference.projected_radius[i];
+    beyond += angle > bars.normal_factor * (1e-6 + 1.5e-4 / reference.projected_radius[i]);
     const glm::dvec4 c = glm::abs(glm::dvec4(picture.color[i]) - reference.color[i]);
     worst_color = std::max({worst_color, c.r, c.g, c.b});
   }

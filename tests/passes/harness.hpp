@@ -30,6 +30,7 @@ struct Bars {
   double least_hits{};           // fraction of the pixels: the picture shows something
   double most_ambiguous{0.01};   // fraction of the pixels: most of them count
   double depth_factor{1.0};      // times the bars on depth: the eye near a surface, see docs/accuracy.md
+  double normal_factor{1.0};     // times the bar on normals: of shapes longer than thick, whose bounding ball says how large they are
 };
 class GpuTest : public ::testing::Test {
 protected:
@@ -49,6 +50,15 @@ protected:
 Scene scene_of(const std::vector<glm::dvec4>& spheres, const std::vector<std::uint32_t>& colors = {});
 // n spheres in a cube of half edge `half`, radii log-uniform.
 std::vector<glm::dvec4> cloud(std::size_t n, double half, double r_min, double r_max, unsigned seed = 3);
+// One particle of any type: where it is, a ball around it, its least measure, and the vec4s of its record behind the first.
+struct Glyph {
+  glm::dvec3 center{0};
+  double bound{}, finest{};
+  std::vector<glm::vec4> rest{};
+};
+Scene glyph_scene(const std::string& type, const std::vector<Glyph>& glyphs, const std::vector<std::uint32_t>& colors = {});
+// Another type's particles in the same scene, as a batch of their own.
+Scene joined(Scene scene, const Scene& other);
 // The scene with its one batch placed by `instances`; bounds follow.
 Scene placed(Scene scene, const std::vector<glm::dmat4>& instances);
 View look(const Scene& scene, glm::dvec3 eye, glm::dvec3 target, Size2d size, double fov_y = 30.0);

@@ -76,7 +76,7 @@ const gpu::ComputePipeline& TileKernels::cast(const CastKey& key, const Besides&
       gpu::spec(0, d.orthographic), gpu::spec(1, d.light_count), gpu::spec(2, d.local_lights), gpu::spec(3, d.specular_model),
       gpu::spec(6, d.head_light_only), gpu::spec(10, d.aovs),
       gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth), gpu::spec(16, key.display_only),
-      gpu::spec(7, d.proxy_slack), gpu::spec(18, static_cast<std::uint32_t>(d.phase))};
+      gpu::spec(7, d.proxy_slack), gpu::spec(8, d.type_number), gpu::spec(18, static_cast<std::uint32_t>(d.phase))};
   if (besides.shadows) {
     for (std::uint32_t k = 0; k < s.lights.size(); ++k) constants.push_back(gpu::spec(31 + k, s.lights[k]));
     constants.insert(constants.end(), {gpu::spec(30, s.maps), gpu::spec(35, s.orthographic)});

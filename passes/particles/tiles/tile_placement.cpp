@@ -84,7 +84,7 @@ void place_range(const ChunkSet& set, std::uint64_t first, std::uint64_t begin, 
     if (!placer.place(set.chunks[first + i], box)) continue;
     bool any = false;
     const double radius = placer.scale() * double{set.chunks[first + i].max_radius};
-    if (!placer.similar() || !rects.place(box, radius, tiled, any) || (box.near && (how.exact || box.distance < 2 * radius))) {
+    if (!placer.similar() || !rects.place(box, radius, tiled, any) || (box.near && (how.exact || box.distance < 2 * radius || set.vec4s_per_record > 1))) {
       placer.add(set, first + i, i, box, out.rest);
     } else if (any && box.near) {
       add_near(set, first + i, placer, box, tiled, out);

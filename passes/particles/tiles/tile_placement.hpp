@@ -5,7 +5,8 @@
 // Tiles serve chunks that lie wholly behind the eye's and the near plane and not beyond the far cut. Of those near the eye,
 // where float32 placement would show in the depth, the particles are placed here one by one, in double. What is so near that
 // the intersection would need more than its plain form (nearer than the diameter of a particle) is given back with the rest,
-// to be drawn by a raster expansion; few chunks are. Where depth or normals are asked for, that is everything near.
+// to be drawn by a raster expansion; few chunks are. Where depth or normals are asked for, and of particles that are more than
+// a center and a radius, that is everything near.
 #pragma once
 
 #include "passes/particles/placement.hpp"

@@ -92,7 +92,7 @@ void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t he
 void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets) {
   Buffers& b = buffers_;
   const std::uint64_t pixels = std::uint64_t{block_.width} * block_.height, places = std::uint64_t{plan_.list_capacity} * chunk_capacity;
-  const std::uint64_t payload = find_particle_type(key.type)->vec4s_per_record * sizeof(glm::vec4);
+  const std::uint64_t payload = find_particle_type(key.type)->vec4s_per_payload * sizeof(glm::vec4);
   const Usage storage = Usage::Storage | Usage::CopyDst | Usage::CopySrc;
   reserve(b.lists, "tiles.lists", std::uint64_t{plan_.most_rounds()} * block_.slices * plan_.list_capacity * 4, storage);
   reserve(b.arguments, "tiles.arguments", arguments_.size() * 4, storage);

@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "passes/particles/tiles/tiled_drawing.hpp"
 
+#include "passes/particles/particle_type.hpp"
+
 #include <algorithm>
+#include <map>
 
 namespace mote::passes {
+namespace {
+
+std::string type_of_most(const Scene& scene) {
+  std::map<std::string, std::uint64_t> counts;
+  for (const Batch& batch : scene.batches) counts[batch.type] += batch.chunks->chunks.size() * batch.instances.size();
+  const auto most = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? "sphere" : most->first;
+}
+
+} // namespace
 
 // The scene without the batches that are not the pass's.
 const Scene& TiledDrawing::selected(const Scene& scene, const Selection& selection) {
@@ -16,16 +29,21 @@ const Scene& TiledDrawing::selected(const Scene& scene, const Selection& selecti
 
 bool TiledDrawing::place(gpu::Device device, const ParticleStore& store, const gpu::BindGroupLayout& frame, const TileWish& wish) {
   const Scene& scene = selected(wish.scene, wish.selection);
-  store.place_tiles(scene, wish.view, wish.placing, tiled_, wish.slot);
+  const std::string type = wish.type.empty() ? type_of_most(scene) : wish.type;
+  store.place_tiles(scene, wish.view, type, wish.placing, tiled_, wish.slot);
   if (tiled_.chunks.empty()) return false;
   if (!tiles_) tiles_ = std::make_unique<TileRenderer>(std::move(device), frame);
   tiles_->update(tiled_, wish.view.size.width, wish.view.size.height);
   bool mixed = false;
   key_ = key_for_all(scene, wish.view, mixed); // never mixed: why_not() has looked
+  key_.type = type;
   key_.phase = wish.phase;
   key_.proxy_slack = wish.slack;
   if (wish.phase != Phase::Opaque) unlit(key_);
-  if (wish.phase == Phase::Shadow) key_.per_particle_color = false;
+  if (wish.phase == Phase::Shadow) {
+    key_.per_particle_color = false;
+    key_.type_number = number_of(*find_particle_type(type));
+  }
   return true;
 }
 

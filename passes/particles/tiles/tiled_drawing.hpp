@@ -15,6 +15,7 @@
 #include "passes/particles/tiles/tile_renderer.hpp"
 
 #include <memory>
+#include <string>
 
 namespace mote::passes {
 
@@ -23,6 +24,7 @@ struct TileWish {
   const View& view;
   const Selection& selection;
   Phase phase{Phase::Opaque};  // or Surface, Shadow
+  std::string type{};          // that tiles are to hold; empty: the one of most particles
   std::uint32_t slot{};        // of the store's placements
   float slack{};               // phase Shadow: thinner casters, in pixels, are widened
   TilePlacing placing{};

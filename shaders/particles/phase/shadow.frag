@@ -11,6 +11,9 @@ layout(location = 2) flat in vec4 v_payload[payload_vec4s];
 #ifdef SHADOW_IDS
 layout(location = 0) out uvec4 o_caster;
 layout(location = 1) out uvec4 o_id;
+#if CASTER_VEC4S > 1
+layout(location = 2) out uvec4 o_rest[CASTER_VEC4S - 1];
+#endif
 #endif
 layout(depth_less) out float gl_FragDepth;
 
@@ -29,6 +32,9 @@ void main() {
   gl_FragDepth = encode_depth(t);
 #ifdef SHADOW_IDS
   o_caster = floatBitsToUint(v_payload[0]);
-  o_id = uvec4(v_id, 0u, 0u, 0u);
+  o_id = uvec4(v_id, type_number, 0u, 0u);
+#if CASTER_VEC4S > 1
+  for (int i = 1; i < CASTER_VEC4S; ++i) o_rest[i - 1] = floatBitsToUint(v_payload[i]);
+#endif
 #endif
 }

@@ -3,6 +3,9 @@
 // sections 3.1 (intersection, form N) and 4.1 (bounds; for spheres Mara & McGuire, JCGT 2(2), 2013).
 // With AFFINE the placement is no similarity and the sphere becomes an ellipsoid: affine.glsl.
 
+#include "particles/bounds.glsl"
+
+#define CASTER_VEC4S 1
 const int record_vec4s = 1;
 #ifdef NEAR_EYE
 const int payload_vec4s = 3;
@@ -20,6 +23,9 @@ struct Particle {
 };
 
 #ifdef NEAR_EYE
+Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[3]) {
+  return Particle(near[0].xyz, near[0].w, near[1].xyz, vec2(near[1].w, near[2].x));
+}
 Particle unpack(vec4 payload[payload_vec4s]) {
   return Particle(payload[0].xyz, payload[0].w, payload[1].xyz, vec2(payload[1].w, payload[2].x));
 }
@@ -42,47 +48,11 @@ void pack(Particle p, out vec4 payload[payload_vec4s]) { payload[0] = vec4(p.cen
 #endif
 
 bool drawable(Particle p) { return p.radius > 0.0; }
+Proxy proxy(Particle p) { return ball_proxy(p.center, p.radius); }
 
 #ifdef AFFINE
 #include "affine.glsl"
 #else
-
-// Extent of x / z (or y / z) over the part of the sphere with z >= n, as (min, max); m = (x or y, z) of the center.
-vec2 tangent_extent(vec2 m, float r, float n) {
-  vec2 extent = vec2(1e30, -1e30);
-  float disc = r * r * (dot(m, m) - r * r);
-  if (disc > 0.0) {
-    // Roots of (z^2 - r^2) h^2 - 2 x z h + (x^2 - r^2) = 0, each written without cancellation.
-    float b = m.x * m.y;
-    float q = b + (b >= 0.0 ? sqrt(disc) : -sqrt(disc));
-    float a = (m.y - r) * (m.y + r), c = (m.x - r) * (m.x + r);
-    vec2 h = vec2(q / a, c / q);
-    for (int i = 0; i < 2; ++i) {
-      float s = m.x - h[i] * m.y > 0.0 ? -1.0 : 1.0; // side of the tangent point
-      float z = m.y - s * r * h[i] * inversesqrt(1.0 + h[i] * h[i]);
-      if (z >= n) extent = vec2(min(extent.x, h[i]), max(extent.y, h[i]));
-    }
-  }
-  float u = (n - m.y) / r; // the circle in which the near plane cuts the sphere
-  if (abs(u) <= 1.0) {
-    float half_chord = r * sqrt((1.0 - u) * (1.0 + u));
-    extent = vec2(min(extent.x, (m.x - half_chord) / n), max(extent.y, (m.x + half_chord) / n));
-  }
-  return extent;
-}
-
-// Rectangle on the image that covers the visible part, and the least z that it can have there.
-Proxy proxy(Particle p) {
-  float n = max(frame.sample_near_far.z, frame.depth_near.x);
-  if (p.center.z + p.radius < n) return empty_proxy();
-  vec2 x = vec2(p.center.x - p.radius, p.center.x + p.radius);
-  vec2 y = vec2(p.center.y - p.radius, p.center.y + p.radius);
-  if (!orthographic) {
-    x = tangent_extent(p.center.xz, p.radius, n);
-    y = tangent_extent(p.center.yz, p.radius, n);
-  }
-  return Proxy(vec2(x.x, y.x), vec2(x.y, y.y), max(n, p.center.z - p.radius));
-}
 
 // The interval of the ray inside the sphere. Misses give false.
 #ifdef NEAR_EYE
@@ -95,7 +65,7 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
     float distance = length(l);
     float d2 = (p.radius - distance) * (p.radius + distance);
     float h = sqrt(max(d2, 0.0));
-    hit = Interval(p.center.z - h, p.center.z + h, vec4(l, h));
+    hit = Interval(p.center.z - h, p.center.z + h, vec4(l, h), vec4(0.0));
     return d2 >= 0.0;
   }
   vec2 d_d = dot_pair(ray.direction, ray.rest, ray.direction, ray.rest);
@@ -105,7 +75,7 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
   float q = b.x + (b.x >= 0.0 ? root + b.y : b.y - root);
   float t1 = q / d_d.x, t2 = p.power.x / q;
   vec3 l = along_minus(divided(b, d_d), ray.direction, ray.rest, p.center, p.rest);
-  hit = Interval(min(t1, t2), max(t1, t2), vec4(l, root / d_d.x));
+  hit = Interval(min(t1, t2), max(t1, t2), vec4(l, root / d_d.x), vec4(0.0));
   return d2.x >= 0.0;
 }
 #else
@@ -121,7 +91,7 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
   float distance = length(l);
   float d2 = (p.radius - distance) * (p.radius + distance); // never r^2 - l^2: cancels at the limb
   float h = sqrt(max(d2, 0.0) * (1.0 / dot(ray.direction, ray.direction)));
-  hit = Interval(middle - h, middle + h, vec4(l, h));
+  hit = Interval(middle - h, middle + h, vec4(l, h), vec4(0.0));
   return d2 >= 0.0;
 }
 #endif
@@ -139,16 +109,7 @@ float tile_radius(Particle p) {
   return proxy_slack > 0.0 ? max(p.radius, proxy_slack * frame.viewport.w * (orthographic ? 1.0 : p.center.z)) : p.radius;
 }
 
-// The rectangle in tangents of a sphere wholly before the eye: roots of (z^2 - r^2) h^2 - 2 x z h + (x^2 - r^2) = 0, to a
-// thousandth of a pixel, where proxy() has more bits and cuts at the near plane.
-Proxy tile_proxy(Particle p) {
-  float r = tile_radius(p);
-  if (orthographic) return Proxy(p.center.xy - r, p.center.xy + r, p.center.z - r);
-  float z = p.center.z;
-  vec2 half_extent = r * sqrt(p.center.xy * p.center.xy + (z - r) * (z + r));
-  float scale = 1.0 / ((z - r) * (z + r));
-  return Proxy((p.center.xy * z - half_extent) * scale, (p.center.xy * z + half_extent) * scale, z - r);
-}
+Proxy tile_proxy(Particle p) { return tile_ball(p.center, tile_radius(p)); }
 
 // Along the ray m + u, m the direction to the center with z = 1, everything is a polynomial in u and small where the
 // ray is near the sphere: with A = |m|^2, r the radius and z the center's depth, the ray's d = |m + u|^2 t has the roots
@@ -197,3 +158,10 @@ Outline outline(Ray ray, Particle p, Interval hit) {
   o.offset = orthographic ? focal * (p.center.xy - ray.origin.xy) : focal * (p.center.xy / p.center.z - ray.direction.xy);
   return o;
 }
+
+#ifdef SHADOW_RAY
+// As below in mask_ids.frag, with less: no distance of a shadow ray is large.
+#define HAS_BLOCKS
+#include "shadow/casters.glsl"
+bool blocks(vec3 origin, vec3 direction, float t_max, Particle p) { return sphere_blocks(origin, direction, t_max, vec4(p.center, p.radius)); }
+#endif

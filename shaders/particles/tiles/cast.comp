@@ -36,6 +36,7 @@ layout(constant_id = 10) const uint aovs = 0u;           // bits: 1 depth, 2 id,
 layout(constant_id = 13) const bool one_material = true; // of all batches: StepBlock.material
 layout(constant_id = 14) const uint color_words = 2u;    // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float; 0: no color
 layout(constant_id = 15) const bool want_depth = false;  // the encoded depth, for passes that draw after this one
+layout(constant_id = 8) const uint type_number = 0u;     // phase shadow: the type, as a map of casters says it
 layout(constant_id = 18) const int phase = 0;            // 0 opaque, 1 surface, 3 shadow, as in phase/surface.frag and phase/shadow.frag
 layout(constant_id = 16) const bool display_only = false; // colors of 8 bits are all that is asked for: normals may err by 1e-4
 
@@ -181,7 +182,7 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, uint winner) {
       vec4 payload[payload_vec4s];
       pack(particle, payload);
       out_normal[at] = payload[0];
-      out_color_pairs[2u * at] = pair(uvec2(placed_ids[who], 0u));
+      out_color_pairs[2u * at] = pair(uvec2(placed_ids[who], type_number));
     }
     return;
   }

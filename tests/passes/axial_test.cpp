@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Types with an axis (capsule, ...) by every expansion, perspective and orthographic: against closed forms, and against the
+// double-precision reference in clouds, from inside, cut, mirrored, unevenly scaled, far from the origin, and where they degenerate.
+#include "harness.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <random>
+
+namespace mote::test {
+namespace {
+
+glm::dmat4 scaled(double x, double y, double z) { return glm::scale(glm::dmat4(1.0), glm::dvec3(x, y, z)); }
+glm::dmat4 turned(double angle, const glm::dvec3& axis) { return glm::rotate(glm::dmat4(1.0), angle, glm::normalize(axis)); }
+glm::dmat4 moved(double x, double y, double z) { return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, z)); }
+glm::dmat4 general() { return scaled(-1, 1, 1) * turned(0.6, {1, 2, 3}) * scaled(1.5, 1.0, 0.4) * turned(1.1, {0, 1, 1}); }
+
+constexpr double pad = 1.0 + 1e-6;
+
+// A particle of a type from its axis h (half of it) and a radius; the other measures follow from the radius.
+Glyph axial(const std::string& type, const glm::dvec3& center, const glm::dvec3& h, double radius) {
+  const glm::vec3 hf(h);
+  const auto r = static_cast<float>(radius);
+  const double length = glm::length(glm::dvec3(hf));
+  if (type == "capsule") return {center, (length + double{r}) * pad, double{r}, {glm::vec4(hf, r)}};
+  return {};
+}
+
+struct Cloud {
+  std::size_t count{};
+  double half{}, r_min{}, r_max{}, slenderness{4}; // half length over radius, at most
+};
+std::vector<Glyph> cloud_of(const std::string& type, const Cloud& c, unsigned seed = 5) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> u(-1, 1);
+  std::vector<Glyph> out;
+  for (std::size_t i = 0; i < c.count; ++i) {
+    const glm::dvec3 center = c.half * glm::dvec3(u(random), u(random), u(random));
+    glm::dvec3 h(u(random), u(random), u(random));
+    const double r = c.r_min * std::pow(c.r_max / c.r_min, 0.5 * (u(random) + 1));
+    h *= r * c.slenderness / std::sqrt(3.0);
+    if (i % 7 == 0) h = glm::dvec3(0, 0, r); // along the axis of the straight views
+    out.push_back(axial(type, center, h, r));
+  }
+  return out;
+}
+
+class Axial : public GpuTest, public ::testing::WithParamInterface<std::string> {
+protected:
+  [[nodiscard]] Scene cloud_scene(const Cloud& c, unsigned seed = 5) const { return glyph_scene(GetParam(), cloud_of(GetParam(), c, seed)); }
+};
+INSTANTIATE_TEST_SUITE_P(Types, Axial, ::testing::Values("capsule"), [](const auto& type) { return type.param; });
+
+class CapsuleTest : public GpuTest {};
+
+// Across the view at distance 10, 4 long between the balls' centers, radius 1: the nearest point is 9 away, its normal looks back;
+// on the image of the orthographic camera the outline is 2 + 1 to the sides and 1 up and down.
+TEST_F(CapsuleTest, OneHasItsExactOutlineAndDepth) {
+  const Scene scene = glyph_scene("capsule", {axial("capsule", {0, 0, 0}, {2, 0, 0}, 1)});
+  const View view = look_orthographic(scene, {0, 0, 10}, {0, 0, 0}, {161, 161}, 8.05); // 20 pixels a unit
+  const Picture p = check(scene, view);
+  EXPECT_FLOAT_EQ(p.depth[p.at(80, 80)], 9.0f);
+  EXPECT_FLOAT_EQ(p.depth[p.at(119, 80)], 9.0f);
+  EXPECT_NEAR(p.depth[p.at(130, 80)], 10.0 - std::sqrt(1.0 - 0.25), 2e-6); // half a radius beyond the end
+  EXPECT_LT(glm::length(glm::dvec3(p.normal[p.at(130, 80)]) - glm::dvec3(0.5, 0, std::sqrt(0.75))), 1e-6);
+  EXPECT_NEAR(p.depth[p.at(60, 90)], 10.0 - std::sqrt(1.0 - 0.25), 2e-6);
+  for (const auto& [x, y, inside] : {std::tuple(139u, 80u, true), {141u, 80u, false}, {80u, 99u, true}, {80u, 101u, false}, {139u, 90u, false}})
+    EXPECT_EQ(p.id[p.at(x, y)], inside ? 0u : 0xFFFFFFFFu) << x << "," << y;
+}
+
+TEST_F(CapsuleTest, WithoutLengthIsASphere) {
+  Scene capsules = glyph_scene("capsule", {axial("capsule", {0.2, 0.1, 0}, {0, 0, 0}, 1.5), axial("capsule", {-3, 1, 2}, {0, 0, 0}, 0.5)});
+  const Scene spheres = scene_of({{0.2, 0.1, 0, 1.5}, {-3, 1, 2, 0.5}});
+  const View view = look(spheres, {1, 2, 12}, {0, 0, 0}, {320, 200});
+  const Picture a = check(capsules, view), b = draw(spheres, view);
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < a.id.size(); ++i) other += a.id[i] != b.id[i] || (a.id[i] == 0 && std::abs(a.depth[i] - b.depth[i]) > 2e-6f);
+  EXPECT_EQ(other, 0u);
+}
+
+TEST_P(Axial, CloudPerspective) {
+  const Scene scene = cloud_scene({2500, 8, 0.05, 0.6});
+  check(scene, look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200}), {.least_hits = 0.2, .normal_factor = 6});
+  check(scene, look(scene, {0, 0, 14}, {0, 0, 0}, {320, 200}, 100), {.least_hits = 0.2, .normal_factor = 6});
+}
+
+TEST_P(Axial, CloudOrthographic) {
+  const Scene scene = cloud_scene({2500, 8, 0.05, 0.6});
+  check(scene, look_orthographic(scene, {9, 12, 30}, {0, 0, 0}, {320, 200}, 24), {.least_hits = 0.2, .normal_factor = 6});
+  check(scene, look_orthographic(scene, {0, 0, 30}, {0, 0, 0}, {320, 200}, 24), {.least_hits = 0.2, .normal_factor = 6}); // along the axes of some
+}
+
+TEST_P(Axial, EyeInside) {
+  std::vector<Glyph> glyphs = cloud_of(GetParam(), {1500, 10, 0.05, 0.6});
+  glyphs.push_back(axial(GetParam(), {0.1, 0.2, 0.3}, {2, 1, 0.5}, 1.5)); // holds the eye
+  const Scene scene = glyph_scene(GetParam(), glyphs);
+  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.9, .depth_factor = 3, .normal_factor = 6});
+}
+
+TEST_P(Axial, NearAndFarCut) {
+  const Scene scene = cloud_scene({1500, 10, 0.05, 1.0});
+  View view = look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200});
+  view.near_cut = 30.0;
+  check(scene, view, {.least_hits = 0.1, .normal_factor = 6});
+  view.far_cut = 34.0;
+  check(scene, view, {.least_hits = 0.05, .normal_factor = 6});
+}
+
+TEST_P(Axial, FarFromTheOrigin) {
+  const glm::dvec3 o(1e6, -1e6, 1e6);
+  std::vector<Glyph> glyphs = cloud_of(GetParam(), {1500, 8, 0.05, 0.6});
+  for (Glyph& g : glyphs) g.center += o;
+  const Scene scene = glyph_scene(GetParam(), glyphs);
+  check(scene, look(scene, o + glm::dvec3(9, 12, 30), o, {320, 200}), {.least_hits = 0.1, .normal_factor = 6});
+}
+
+// The eye at a thousand and a hundred thousand times the size.
+TEST_P(Axial, FarAway) {
+  for (const double far : {1e3, 1e5}) {
+    std::vector<Glyph> glyphs;
+    for (int i = 0; i < 9; ++i) glyphs.push_back(axial(GetParam(), {(i % 3 - 1) * 5.0, (i / 3 - 1) * 5.0, 0.0}, {0.9 * std::cos(i), 0.9 * std::sin(i), 0.3 * i - 1}, 0.7));
+    const Scene scene = glyph_scene(GetParam(), glyphs);
+    check(scene, look(scene, {0.3 * far, 0.2 * far, far}, {0, 0, 0}, {200, 200}, glm::degrees(20.0 / far)), {.least_hits = 0.05, .normal_factor = far > 1e4 ? 60.0 : 6.0});
+  }
+}
+
+TEST_P(Axial, InstancesOfEveryKind) {
+  Scene scene = placed(glyph_scene(GetParam(), cloud_of(GetParam(), {150, 3, 0.1, 0.5}), {0xFF3080F0u, 0xFF80F030u}),
+                       {moved(-7, 0, 0), moved(0, 0, 0) * scaled(1, -0.5, 1), moved(7, 0, 0) * turned(0.3, {1, 0, 1}) * scaled(-1, 1, 1), moved(0, 5, 0) * general()});
+  scene.batches[0].id_base = 1000;
+  check(scene, look(scene, {2, 6, 30}, {0, 0, 0}, {320, 200}), {.least_hits = 0.1, .normal_factor = 12});
+  check(scene, look_orthographic(scene, {2, 6, 30}, {0, 0, 0}, {320, 200}, 20), {.least_hits = 0.1, .normal_factor = 12});
+}
+
+TEST_P(Axial, UnevenlyScaledFromInside) {
+  std::vector<Glyph> glyphs = cloud_of(GetParam(), {600, 6, 0.05, 0.6});
+  glyphs.push_back(axial(GetParam(), {0.1, 0.2, 0.3}, {2, 1, 0.5}, 1.5));
+  const Scene scene = placed(glyph_scene(GetParam(), glyphs), {general()});
+  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.8, .depth_factor = 6, .normal_factor = 12});
+  View cut = look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200});
+  cut.near_cut = 31.0;
+  check(scene, cut, {.least_hits = 0.05, .normal_factor = 12});
+}
+
+// Spheres and these in one picture: tiles draw the more frequent ones.
+TEST_P(Axial, BesideSpheres) {
+  const Scene scene = joined(scene_of(cloud(300, 6, 0.05, 0.6)), cloud_scene({300, 6, 0.05, 0.6}, 8));
+  check(scene, look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200}), {.least_hits = 0.1, .normal_factor = 6});
+}
+
+} // namespace
+} // namespace mote::test
