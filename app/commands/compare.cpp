@@ -2,6 +2,7 @@
 // mote compare: how far a picture is from another one, or from the reference of a scene.
 #include "app/codes.hpp"
 #include "app/commands/command.hpp"
+#include "app/library/provenance.hpp"
 #include "app/library/reference_picture.hpp"
 #include "core/compare/compare.hpp"
 #include "core/compare/limits.hpp"
@@ -26,11 +27,19 @@ struct CompareArguments {
   bool json{};
 };
 
+// What a picture says about its camera; empty: nothing.
+std::string camera_of(const std::vector<std::pair<std::string, std::string>>& texts) {
+  for (const auto& [key, value] : texts)
+    if (key == "Camera") return value;
+  return {};
+}
+
 CompareInput from_png(const std::string& path) {
   const PngPicture png = read_png(path);
   CompareInput out;
   out.width = png.width;
   out.height = png.height;
+  out.camera = camera_of(png.text);
   out.color = png.rgba8.empty() ? compare::color_from_rgba16(png.rgba16) : compare::color_from_rgba8(png.rgba8);
   return out;
 }
@@ -41,6 +50,7 @@ CompareInput from_exr(const std::string& path) {
   out.width = exr.width;
   out.height = exr.height;
   out.encoding = compare::Encoding::Linear;
+  out.camera = camera_of(exr.attributes);
   auto plane = [&](const char* name) { return exr.find(name); };
   const std::size_t pixels = std::size_t{exr.width} * exr.height;
   if (const ExrChannel *r = plane("R"), *g = plane("G"), *b = plane("B"); r && g && b) {
@@ -111,6 +121,7 @@ CompareInput reference_like(const CompareInput& like, const CompareArguments& a)
   out.width = like.width;
   out.height = like.height;
   out.encoding = compare::Encoding::Linear;
+  out.camera = camera_text(job.scene.camera);
   out.depth = std::move(traced.depth);
   out.id = std::move(traced.id);
   out.ambiguous = traced.layers_ambiguous.empty() ? std::move(traced.ambiguous) : std::move(traced.layers_ambiguous);

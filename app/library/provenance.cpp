@@ -13,15 +13,6 @@ constexpr std::size_t longest_scene = 65536; // bytes of a scene file that a pic
 
 std::string vec_text(const glm::dvec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
-std::string camera_text(const Camera& c) {
-  std::string text = fmt::format("eye = {}, target = {}, up = {}, ", vec_text(c.eye), vec_text(c.target), vec_text(c.up));
-  text += c.projection == Projection::Perspective ? fmt::format("fov_y = {}", c.fov_y)
-                                                  : fmt::format("projection = \"orthographic\", height = {}", c.height);
-  if (c.near) text += fmt::format(", near = {}", *c.near);
-  if (c.far) text += fmt::format(", far = {}", *c.far);
-  return text;
-}
-
 // The files that were read, as they were named.
 std::string input_text(const SceneDesc& desc) {
   std::string text;
@@ -58,6 +49,15 @@ std::string as_utf8(const std::string& text) {
 }
 
 } // namespace
+
+std::string camera_text(const Camera& c) {
+  std::string text = fmt::format("eye = {}, target = {}, up = {}, ", vec_text(c.eye), vec_text(c.target), vec_text(c.up));
+  text += c.projection == Projection::Perspective ? fmt::format("fov_y = {}", c.fov_y)
+                                                  : fmt::format("projection = \"orthographic\", height = {}", c.height);
+  if (c.near) text += fmt::format(", near = {}", *c.near);
+  if (c.far) text += fmt::format(", far = {}", *c.far);
+  return text;
+}
 
 std::string quoted(const std::string& word) {
   const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:=,+@%") == std::string::npos;

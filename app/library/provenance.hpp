@@ -15,6 +15,9 @@ namespace mote::app {
 Provenance provenance_of(const Job& job, const std::string& version, const std::string& command, const std::string& drawn_by,
                          const std::string& display);
 
+// The camera as the picture's text "Camera" has it.
+std::string camera_text(const Camera& camera);
+
 // A word as a shell takes it: quoted where that is needed.
 std::string quoted(const std::string& word);
 

@@ -4,6 +4,8 @@
 #include "core/base/diagnostic.hpp"
 #include "core/compare/codes.hpp"
 #include "core/compare/color_difference.hpp"
+#include "core/compare/flip.hpp"
+#include "core/compare/outline.hpp"
 
 #include <fmt/format.h>
 
@@ -44,6 +46,9 @@ void check(const CompareInput& a, const CompareInput& b) {
     fail(
         Exit::BadInput, compare_codes::sizes_differ, {a.name},
         fmt::format("is {} x {} pixels, but '{}' is {} x {}.", a.width, a.height, b.name, b.width, b.height));
+  if (!a.camera.empty() && !b.camera.empty() && a.camera != b.camera)
+    fail(Exit::BadInput, compare_codes::cameras_differ, {a.name}, fmt::format("was drawn by another camera than '{}'.", b.name),
+         {fmt::format("'{}': {}", a.name, a.camera), fmt::format("'{}': {}", b.name, b.camera)});
   if (has_depth(a, b) || has_ids(a, b) || has_normals(a, b) || has_colors(a, b)) return;
   const auto parts = [](const CompareInput& p) {
     std::vector<std::string> words;
@@ -190,19 +195,20 @@ ColorDifference compare_colors(const Pair& p) {
   return d;
 }
 
-OutlineDifference compare_outlines(const Pair& p) {
-  OutlineDifference d;
-  std::uint64_t pairs = 0;
-  for (std::uint32_t y = 0; y < p.a.height; ++y)
-    for (std::uint32_t x = 0; x < p.a.width; ++x) {
-      const std::size_t i = std::size_t{y} * p.a.width + x;
-      if (p.seen_a[i] != p.seen_b[i]) ++d.disagreeing;
-      if (x + 1 < p.a.width && p.seen_b[i] != p.seen_b[i + 1]) ++pairs;
-      if (y + 1 < p.a.height && p.seen_b[i] != p.seen_b[i + p.a.width]) ++pairs;
-    }
-  d.length = double(pairs) * (3.14159265358979323846 / 4.0);
-  if (d.disagreeing) d.displacement = pairs ? double(d.disagreeing) / d.length : infinity;
-  return d;
+// FLIP of what is shown: clamped, black where transparent or not a number.
+void add_flip(const Pair& p, ColorDifference& d) {
+  auto linear = [&](const CompareInput& x) {
+    std::vector<glm::dvec3> out(p.pixels);
+    for (std::size_t i = 0; i < p.pixels; ++i)
+      if (const auto c = display(x, i))
+        for (int k = 0; k < 3; ++k) out[i][k] = srgb_decode((*c)[k]);
+    return out;
+  };
+  const std::vector<double> errors = flip(linear(p.a), linear(p.b), p.a.width, p.a.height);
+  for (const double e : errors) {
+    d.flip_mean += e / double(errors.size());
+    d.flip_max = std::max(d.flip_max, e);
+  }
 }
 
 } // namespace
@@ -232,11 +238,14 @@ CompareResult compare(const CompareInput& a, const CompareInput& b) {
   for (std::size_t i = 0; i < pair.pixels; ++i) r.ambiguous += pair.ambiguous(i) ? 1 : 0;
   if (!pair.seen_a.empty()) {
     r.id = compare_ids(pair);
-    r.outline = compare_outlines(pair);
+    r.outline = compare_outlines(pair.seen_a, pair.seen_b, a.width, a.height);
   }
   if (has_depth(a, b)) r.depth = compare_depths(pair);
   if (has_normals(a, b)) r.normal = compare_normals(pair);
-  if (has_colors(a, b)) r.color = compare_colors(pair);
+  if (has_colors(a, b)) {
+    r.color = compare_colors(pair);
+    if (r.color->max > 0.0) add_flip(pair, *r.color);
+  }
   return r;
 }
 

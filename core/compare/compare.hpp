@@ -37,6 +37,7 @@ struct CompareInput {
   Encoding encoding{Encoding::Srgb};     // of `color`
   std::vector<std::uint8_t> ambiguous{}; // not 0: float32 rounding may decide there
   std::vector<float> projected_radius{}; // pixels; of the particle seen, for the bar on normals
+  std::string camera{};                  // as text; empty: not known. Two known ones have to be equal
 };
 
 // RGBA values of an integer file as numbers in [0, 1].
@@ -75,17 +76,21 @@ struct ColorDifference {
   double rms{}, max{}; // over r, g, b
   double alpha_max{};
   double de_mean{}, de_p95{}, de_max{}; // CIEDE2000
+  double flip_mean{}, flip_max{};       // FLIP (flip.hpp), over all pixels: the eye's blur does not stop at ambiguous ones
 };
 
 // How far outlines (and curves where two particles meet) lie apart on average, in pixels: the number of
 // pixels that show different things, over the length of B's outlines. The length is pi/4 of the neighboring
 // pairs of pixels that show different things in B (the mean over all directions of a line). All pixels count,
 // ambiguous ones included. A measure of the whole picture: it does not tell one large error from many small
-// ones.
+// ones; p999 does.
 struct OutlineDifference {
   std::uint64_t disagreeing{};
   double length{};       // px
   double displacement{}; // px; 0 where nothing disagrees, infinite where something does but B has no outline
+  // 99.9th percentile over the elements of both outlines of the distance to the nearest element of the other picture between the
+  // same two things; in pixels, so 0 or at least 0.7: a shift below a pixel shows in `displacement`. Infinite beyond 16 px.
+  double p999{};
 };
 
 struct CompareResult {
@@ -103,7 +108,7 @@ struct CompareResult {
 // is 1.5e-4 / R).
 double normal_bar(double projected_radius);
 
-// Throws Failure: K004 (sizes differ), K005 (nothing that both have), K007 (array of the wrong length).
+// Throws Failure: K004 (sizes differ), K005 (nothing that both have), K007 (array of the wrong length), K008 (cameras differ).
 CompareResult compare(const CompareInput& a, const CompareInput& b);
 
 // RGBA8, opaque: red where the two show different things, yellow where they do on an ambiguous pixel;

@@ -31,8 +31,8 @@ std::string report_text(const CompareResult& r, const Verdict& verdict) {
     out += fmt::format("ids: {} of {} pixels differ ({} wrong, {} extra, {} missing)\n", r.id->all(),
                        r.id->compared, r.id->wrong, r.id->extra, r.id->missing);
   if (r.outline)
-    out += fmt::format("outlines: {:.3g} px apart on average over {:.0f} px\n", r.outline->displacement,
-                       r.outline->length);
+    out += fmt::format("outlines: {:.3g} px apart on average over {:.0f} px, 99.9th percentile {:.3g} px\n",
+                       r.outline->displacement, r.outline->length, r.outline->p999);
   if (r.depth) {
     out += spread_line(fmt::format("depth, relative, {} pixels", r.depth->compared), r.depth->relative, "");
     out += spread_line("depth", r.depth->ulp, "ulp");
@@ -47,6 +47,7 @@ std::string report_text(const CompareResult& r, const Verdict& verdict) {
                        r.color->compared, r.color->rms, r.color->max, r.color->alpha_max);
     out += fmt::format("CIEDE2000: mean {:.3g}, p95 {:.3g}, max {:.3g}\n", r.color->de_mean, r.color->de_p95,
                        r.color->de_max);
+    out += fmt::format("FLIP: mean {:.3g}, max {:.3g}\n", r.color->flip_mean, r.color->flip_max);
     if (r.color->not_finite)
       out += fmt::format("colors that are no numbers: {} pixels\n", r.color->not_finite);
   }

@@ -104,7 +104,7 @@ TEST(CompareLimits, EveryMeasureIsReachableByItsName) {
     EXPECT_EQ(m.value(r), 0.0) << m.name;
     limits.push_back({std::string(m.name), 0.0});
   }
-  EXPECT_EQ(limits.size(), 23u);
+  EXPECT_EQ(limits.size(), 26u);
   Diagnostics d;
   EXPECT_TRUE(judge(r, limits, d).equal);
   EXPECT_TRUE(d.empty());

@@ -203,6 +203,60 @@ TEST(Compare, OutlinesOfAMovedDisk) {
   EXPECT_EQ(compare(disk(0.0), none).outline->displacement, infinity);
 }
 
+// A square one pixel to the right: its two upright sides are displaced by a pixel, the others by none. One stray pixel in
+// ten thousand does not move the percentile; a particle that is not there at all does.
+TEST(Compare, OutlinesAtThe999thPercentile) {
+  const auto square = [](int shift) {
+    CompareInput p;
+    p.width = p.height = 120;
+    for (int y = 0; y < 120; ++y)
+      for (int x = 0; x < 120; ++x) p.id.push_back(x - shift >= 20 && x - shift < 100 && y >= 20 && y < 100 ? 1u : no_id);
+    return p;
+  };
+  EXPECT_EQ(compare(square(0), square(0)).outline->p999, 0.0);
+  EXPECT_EQ(compare(square(1), square(0)).outline->p999, 1.0);
+  EXPECT_EQ(compare(square(3), square(0)).outline->p999, 3.0);
+  CompareInput other = square(0);
+  for (std::uint32_t& id : other.id)
+    if (id == 1u) id = 2u; // nothing of the square is found
+  EXPECT_EQ(compare(other, square(0)).outline->p999, infinity);
+}
+
+// Known answers: nothing for equal pictures, 1 at most, and the order of what the eye notices.
+TEST(Compare, FlipIsZeroForEqualAndGrowsWithWhatIsSeen) {
+  const auto flat = [](float g) {
+    CompareInput p;
+    p.width = p.height = 32;
+    p.color.assign(32 * 32, glm::vec4(g, g, g, 1));
+    return p;
+  };
+  EXPECT_EQ(compare(flat(0.5f), flat(0.5f)).color->flip_max, 0.0);
+  const double small = compare(flat(0.5f), flat(0.51f)).color->flip_mean, large = compare(flat(0.2f), flat(0.8f)).color->flip_mean;
+  EXPECT_GT(small, 0.0);
+  EXPECT_LT(small, 0.1);
+  EXPECT_GT(large, 0.5);
+  // Black against white: HyAB 100, to the power 0.7 25.1, of the largest 41.3 stretched: 0.966.
+  EXPECT_NEAR(compare(flat(0.0f), flat(1.0f)).color->flip_mean, 0.966, 0.01);
+  CompareInput dotted = flat(0.5f); // a pixel that the eye blurs away counts less than a patch of the same difference
+  dotted.color[16 * 32 + 16] = {1, 1, 1, 1};
+  CompareInput patch = flat(0.5f);
+  for (std::size_t i = 0; i < 100; ++i) patch.color[(11 + i / 10) * 32 + 11 + i % 10] = {1, 1, 1, 1};
+  EXPECT_LT(compare(dotted, flat(0.5f)).color->flip_max, compare(patch, flat(0.5f)).color->flip_max);
+}
+
+TEST(Compare, DifferentCamerasAreRefused) {
+  CompareInput a = made_up(), b = made_up();
+  a.camera = "eye = [0, 0, 1]";
+  EXPECT_NO_THROW((void)compare(a, b)) << "nothing is known of b's";
+  b.camera = a.camera;
+  EXPECT_NO_THROW((void)compare(a, b));
+  b.camera = "eye = [0, 0, 2]";
+  const Failure f = failure_of(a, b);
+  EXPECT_EQ(f.diagnostic().code, "K008");
+  EXPECT_EQ(f.exit(), Exit::BadInput);
+  EXPECT_THAT(f.what(), HasSubstr("eye = [0, 0, 2]"));
+}
+
 TEST(Compare, OnlyWhatBothHaveIsMeasured) {
   CompareInput a = made_up(), b = made_up();
   a.normal.clear();
