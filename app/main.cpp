@@ -12,7 +12,7 @@
 namespace mote::app {
 namespace {
 
-const std::vector<std::string> later_commands{"chart", "convert", "probe"};
+const std::vector<std::string> later_commands{"convert", "probe"};
 
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -67,6 +67,7 @@ Exit run(int argc, char** argv) {
   add_info(app, exit);
   add_bench(app, exit);
   add_compare(app, exit);
+  add_chart(app, exit);
   add_explain(app, exit);
   add_calibrate(app, exit);
   add_graph(app, exit);

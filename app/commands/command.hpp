@@ -59,6 +59,7 @@ void add_view(CLI::App& app, Exit& exit);
 void add_info(CLI::App& app, Exit& exit);
 void add_bench(CLI::App& app, Exit& exit);
 void add_compare(CLI::App& app, Exit& exit);
+void add_chart(CLI::App& app, Exit& exit);
 void add_explain(CLI::App& app, Exit& exit);
 void add_calibrate(CLI::App& app, Exit& exit);
 void add_graph(CLI::App& app, Exit& exit);

@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"near_option", "render good.csv --sizes 3x3", 2, "A001", "Did you mean '--size'?"},
         BadInput{"no_scene", "render", 2, "A001", "SCENE"},
         BadInput{"unknown_command", "rendr", 2, "A001", "Did you mean 'render'?"},
-        BadInput{"later_command", "chart good.csv", 2, "A009", "no command 'chart'"},
+        BadInput{"later_command", "convert good.csv", 2, "A009", "no command 'convert'"},
         BadInput{"size_zero", "render good.csv -o out.png --size 0x0", 2, "A002", "'0x0' is not a size"},
         BadInput{"size_half", "render good.csv -o out.png --size 100", 2, "A002", "'100' is not a size"},
         BadInput{"size_huge", "render good.csv -o out.png --size 100000x1", 2, "A002", "'100000x1' is not a size"},

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Topic `proxy`: how a particle becomes fragments. First what mote's expansions cost and whether a pixel of theirs is wrong
+// (there must be none), then what simpler outlines of a sphere on the image lose or waste: those are geometry, no pictures.
+#include "app/charts/outlines.hpp"
+#include "app/charts/scene_topic.hpp"
+
+#include <fmt/format.h>
+
+namespace mote::app {
+namespace {
+
+using passes::Expansion;
+
+chart::Panel expansions(TopicContext& context, SceneTopic& topic, chart::Chart& c) {
+  chart::Panel panel{"Expansions: pixels that show another particle than the reference", {"time a frame", "ms", true}, {"wrong pixels", "", true}, true, {}};
+  ReferenceOptions options;
+  options.normals = options.colors = false;
+  const compare::CompareInput reference = input_of(render_reference(topic.job.scene, topic.view(), options));
+  for (const Expansion expansion : {Expansion::Vertex, Expansion::Geometry, Expansion::Point, Expansion::Compute}) {
+    const std::string name(passes::to_string(expansion));
+    try {
+      const Method method{.expansion = expansion};
+      const compare::CompareResult result = compare::compare(input_of(topic.picture(method, true), true), reference);
+      panel.series.push_back({name, false, {{"", topic.milliseconds(method), static_cast<double>(result.id->all())}}});
+    } catch (const Failure& failure) { // P001: says what the device lacks
+      c.notes.push_back(fmt::format("'{}' is left out: {}", name, failure.diagnostic().text));
+    }
+    context.say(name);
+  }
+  return panel;
+}
+
+} // namespace
+
+chart::Chart chart_proxy(TopicContext& context) {
+  SceneTopic topic(context);
+  chart::Chart c{.topic = "proxy", .title = "How particles become fragments"};
+  c.panels.push_back(expansions(context, topic, c));
+  for (const double degrees : {0.0, 30.0}) c.panels.push_back(outline_panel(degrees));
+  c.notes.push_back(fmt::format("{}; outlines: by counting 1000 x 1000 places on the image in double precision.", topic.text()));
+  return c;
+}
+
+} // namespace mote::app
