@@ -64,11 +64,12 @@ Proxy disc_proxy(vec3 center, vec3 axis, float radius) {
 // Extent of x / z (or y / z) over the part of the sphere with z >= n, as (min, max); m = (x or y, z) of the center.
 vec2 tangent_extent(vec2 m, float r, float n) {
   vec2 extent = vec2(1e30, -1e30);
-  float disc = r * r * (dot(m, m) - r * r);
-  if (disc > 0.0) {
+  float power = dot(m, m) - r * r;
+  if (power > 0.0) {
     // Roots of (z^2 - r^2) h^2 - 2 x z h + (x^2 - r^2) = 0, each written without cancellation.
     float b = m.x * m.y;
-    float q = b + (b >= 0.0 ? sqrt(disc) : -sqrt(disc));
+    float root = r * sqrt(power); // never r^2 times the power, which overflows from 1e9 on
+    float q = b + (b >= 0.0 ? root : -root);
     float a = (m.y - r) * (m.y + r), c = (m.x - r) * (m.x + r);
     vec2 h = vec2(q / a, c / q);
     for (int i = 0; i < 2; ++i) {
