@@ -23,7 +23,7 @@ std::vector<Outline2d> outlines(const glm::dvec3& center, double r);
 struct Covered {
   double missing{}, overdraw{}; // part of the sphere's image outside the outline; outline's area / image's area
 };
-Covered covered(const Outline2d& outline, const glm::dvec3& center, double r, int steps = 1000);
+Covered covered(const Outline2d& outline, const glm::dvec3& center, double r, int steps = 500);
 
 // Spheres at distance / radius 1.5, 3 and 10, `degrees` off the axis.
 chart::Panel outline_panel(double degrees);

@@ -37,7 +37,7 @@ chart::Chart chart_proxy(TopicContext& context) {
   chart::Chart c{.topic = "proxy", .title = "How particles become fragments"};
   c.panels.push_back(expansions(context, topic, c));
   for (const double degrees : {0.0, 30.0}) c.panels.push_back(outline_panel(degrees));
-  c.notes.push_back(fmt::format("{}; outlines: by counting 1000 x 1000 places on the image in double precision.", topic.text()));
+  c.notes.push_back(fmt::format("{}; outlines: by counting 500 x 500 places on the image in double precision.", topic.text()));
   return c;
 }
 
