@@ -36,12 +36,14 @@ inline constexpr std::string_view movie = "A023";
 inline constexpr std::string_view chart_topic = "A030";
 inline constexpr std::string_view bad_costs = "A040";
 inline constexpr std::string_view no_cache = "A041";
+inline constexpr std::string_view cannot_present = "A050";
+inline constexpr std::string_view script = "A051";
 } // namespace code
 
 struct AppCode {
   std::string_view code{}, line{};
 };
-inline constexpr std::array<AppCode, 26> app_codes{{
+inline constexpr std::array<AppCode, 28> app_codes{{
     {code::command_line, "usage: an unknown option, a missing argument, words that do not fit together"},
     {code::size, "usage: --size is not WIDTHxHEIGHT, each from 1 to 32768"},
     {code::output_ending, "usage: an output file of an ending that cannot be written"},
@@ -68,6 +70,8 @@ inline constexpr std::array<AppCode, 26> app_codes{{
     {code::chart_topic, "usage: there is no topic of that name for a chart"},
     {code::bad_costs, "warning: the measured costs of the device cannot be read; shipped ones serve"},
     {code::no_cache, "failed: there is no folder for caches, where calibrate keeps what it measured"},
+    {code::cannot_present, "failed: the display cannot show the pictures of a Vulkan device"},
+    {code::script, "input: a line of a window's script that cannot be understood"},
 }};
 
 } // namespace mote::app

@@ -6,8 +6,9 @@ say() { printf 'mote: %s\n' "$*" >&2; }
 mote_packages="g++ cmake ninja-build ccache pkg-config
   libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools libspirv-cross-c-shared-dev
   libglm-dev libopencolorio-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev
+  libglfw3-dev libimgui-dev
   libpng-dev libopenexr-dev zlib1g-dev liblzma-dev libzstd-dev libpugixml-dev"
-mote_test_packages="libgtest-dev libgmock-dev vulkan-validationlayers"
+mote_test_packages="libgtest-dev libgmock-dev vulkan-validationlayers xvfb xdotool"
 
 # install_packages NAME...: those that are missing, with apt-get; sudo if not root.
 install_packages() {

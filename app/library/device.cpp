@@ -17,7 +17,7 @@ std::string cache_directory() {
 DrawingDevice::DrawingDevice(const DeviceOptions& options) : errors_(std::make_shared<std::vector<gpu::Error>>()) {
   gpu::Error error;
   auto give_up = [&] { fail(Exit::NoDevice, error.code, {}, error.message, error.context); };
-  instance_ = gpu::Instance::create({.validation = options.validation}, error);
+  instance_ = gpu::Instance::create({.validation = options.validation, .surface = !options.surface_extensions.empty(), .surface_extensions = options.surface_extensions}, error);
   if (!instance_) give_up();
   adapter_ = instance_.request_adapter({.name = options.name}, error);
   if (!adapter_) give_up();

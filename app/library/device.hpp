@@ -15,6 +15,7 @@ namespace mote::app {
 struct DeviceOptions {
   std::string name{}; // part of the device's name; empty: $MOTE_ADAPTER, else the fastest kind there is
   bool validation{};  // Khronos validation layer; its messages are collected
+  std::vector<const char*> surface_extensions{}; // of the window system, for a device that shows pictures in a window
 };
 
 class DrawingDevice {
@@ -26,6 +27,7 @@ public:
   DrawingDevice& operator=(const DrawingDevice&) = delete;
 
   [[nodiscard]] gpu::Device& device() { return device_; }
+  [[nodiscard]] const gpu::Instance& instance() const { return instance_; }
   [[nodiscard]] const gpu::AdapterInfo& info() const { return adapter_.info(); }
   // Throws Failure (Failed) A007 if the device has reported an error since the last call, A014 if the validation
   // layer has said something.

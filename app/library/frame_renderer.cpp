@@ -15,8 +15,9 @@
 namespace mote::app {
 
 FrameRenderer::FrameRenderer(DrawingDevice& device, ReadyGraph graph, const ColorConfig& config, const DisplayOptions& display,
-                             passes::Expansion expansion, double frames)
-    : device_(device), graph_(std::move(graph)), store_(device.device()), executor_(device.device(), graph_.plan, graph_.passes) {
+                             passes::Expansion expansion, double frames, std::shared_ptr<passes::ParticleStore> store)
+    : device_(device), graph_(std::move(graph)), store_(store ? std::move(store) : std::make_shared<passes::ParticleStore>(device.device())),
+      executor_(device.device(), graph_.plan, graph_.passes) {
   costs_ = device_costs(device.info(), cache_directory(), report_);
   options_.expansion = expansion;
   options_.frames = frames;
@@ -33,7 +34,7 @@ FrameRenderer::FrameRenderer(DrawingDevice& device, ReadyGraph graph, const Colo
 
 void FrameRenderer::set_scene(const Scene& scene) {
   scene_ = &scene;
-  store_.upload(scene);
+  store_->upload(scene);
   device_.check();
 }
 
@@ -44,7 +45,8 @@ gpu::Submission FrameRenderer::draw(const View& view) {
   frame.set(&view_);
   frame.set(&options_);
   frame.set(&display_);
-  frame.set(static_cast<const passes::ParticleStore*>(&store_));
+  if (reports_.report) frame.set(&reports_);
+  frame.set(static_cast<const passes::ParticleStore*>(store_.get()));
   choices_.clear();
   const gpu::Submission submission = executor_.execute(frame, {view.size.width, view.size.height});
   name_choices();

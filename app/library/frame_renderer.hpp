@@ -32,9 +32,10 @@ struct DisplayOptions {
 
 class FrameRenderer {
 public:
-  // `config` and `device` must outlive the renderer. `frames`: how many are expected to be drawn, for `auto`.
+  // `config` and `device` must outlive the renderer. `frames`: how many are expected to be drawn, for `auto`. Renderers
+  // of one scene may share a `store`, so that its particles are on the device once.
   FrameRenderer(DrawingDevice& device, ReadyGraph graph, const ColorConfig& config, const DisplayOptions& display,
-                passes::Expansion expansion, double frames = 1);
+                passes::Expansion expansion, double frames = 1, std::shared_ptr<passes::ParticleStore> store = {});
 
   void set_scene(const Scene& scene); // uploads; `scene` must outlive the drawing
   // Records and submits a frame. Throws Failure when a pass or the device reports an error.
@@ -44,12 +45,19 @@ public:
   const Diagnostics& report() const { return report_; }
   // What the last frame gave: the output, and whatever the graph was asked for. Waits.
   DrawnPicture read();
+  // The picture of the last frame, still on the device; and what else the graph was asked for.
+  [[nodiscard]] gpu::Texture output() const { return executor_.output(); }
+  [[nodiscard]] gpu::Texture texture(const std::string& source) const { return executor_.texture(source); }
+  [[nodiscard]] const ReadyGraph& graph() const { return graph_; } // its plan is the executor's
+  [[nodiscard]] const std::shared_ptr<passes::ParticleStore>& store() const { return store_; }
+  // What passes from files have to say about files that changed.
+  void set_reports(std::function<void(const Diagnostic&)> report) { reports_.report = std::move(report); }
   // One texture or buffer of the graph, to .npy, or to .exr if it is a color or a number a pixel.
   void dump(const std::string& source, const std::string& path);
 
   [[nodiscard]] const gpu::Limits& limits() const { return device_.device().limits(); }
   [[nodiscard]] const rg::Plan& plan() const { return executor_.plan(); }
-  [[nodiscard]] const std::vector<rg::PassTiming>& timings() { return executor_.timings(true); }
+  [[nodiscard]] const std::vector<rg::PassTiming>& timings(bool wait = true) { return executor_.timings(wait); }
   void set_stage_times(bool on) { executor_.set_stage_times(on); }
   // "sRGB / Un-tone-mapped", once a frame was drawn.
   [[nodiscard]] const std::string& display_text() const { return *display_text_; }
@@ -74,7 +82,8 @@ private:
   passes::FrameOptions options_{};
   passes::DisplaySettings display_{};
   std::shared_ptr<std::string> display_text_ = std::make_shared<std::string>();
-  passes::ParticleStore store_;
+  passes::PassReports reports_{};
+  std::shared_ptr<passes::ParticleStore> store_;
   rg::Executor executor_;
   const Scene* scene_{};
   View view_{};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Completes a camera of which the user gave some numbers, so that the data is in view.
+#include "core/math/fit.hpp"
 #include "core/scene/realize.hpp"
 
 #include <algorithm>
@@ -14,29 +15,6 @@ glm::dvec3 default_direction(const glm::dvec3& up_given) {
   const glm::dvec3 side = std::abs(up.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 right = glm::normalize(side - up * glm::dot(side, up));
   return glm::normalize(0.25 * right + glm::cross(right, up) + 0.15 * up);
-}
-
-struct Extent { // of a box around the target, seen along -toward_eye
-  double distance{};  // the least at which all corners are in the frustum (perspective)
-  double height{};    // that shows all corners (orthographic)
-  double depth{};     // of the nearest corner before the target
-};
-
-Extent extent_of(const Bounds& b, const Camera& c, const glm::dvec3& toward_eye, Size2d size) {
-  const glm::dvec3 right = glm::normalize(glm::cross(-toward_eye, c.up));
-  const glm::dvec3 up = glm::cross(right, -toward_eye);
-  const double aspect = size.height ? static_cast<double>(size.width) / size.height : 1.0;
-  const double half_y = std::tan(glm::radians(c.fov_y) * 0.5);
-  Extent e;
-  for (int i = 0; i < 8; ++i) {
-    const glm::dvec3 corner = glm::dvec3(i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z) - c.target;
-    const double x = std::abs(glm::dot(corner, right)) / aspect, y = std::abs(glm::dot(corner, up));
-    const double nearness = glm::dot(corner, toward_eye);
-    e.distance = std::max(e.distance, nearness + std::max(x, y) / half_y);
-    e.height = std::max(e.height, 2.0 * std::max(x, y));
-    e.depth = std::max(e.depth, nearness);
-  }
-  return e;
 }
 
 } // namespace

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Boxes of text over the window's picture: help, messages, what was picked. Drawn on the processor with the letters of
+// legends, so the window has words also where it was built without panels. Pure.
+#pragma once
+
+#include "app/window/presenter.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace mote::window {
+
+enum class HudPlace : std::uint8_t { Center, TopLeft, BottomLeft };
+
+// Rows of two columns (the second may be empty), light on dark. `scale`: of the display (HiDPI). Rows that do not fit
+// into the window are left out, long ones are cut.
+FlatPicture text_box(const std::vector<std::array<std::string, 2>>& rows, HudPlace place, Size2d window, double scale);
+
+} // namespace mote::window

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Draws the scene of the window: as it should be, as a draft while something moves, and a few pixels of ids where the mouse
+// is. One FrameRenderer for each of these, over one store of particles. Knows no window; Session calls it.
+//
+// A graph that cannot be drawn leaves the one before in place.
+#pragma once
+
+#include "app/library/frame_renderer.hpp"
+#include "app/library/job.hpp"
+#include "app/window/pick.hpp"
+#include "app/window/slot.hpp"
+#include "core/color/display_transform.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace mote::window {
+
+class Painter {
+public:
+  // Device and config must outlive it.
+  Painter(app::DrawingDevice& device, const ColorConfig& config, const app::DisplayOptions& display, passes::Expansion expansion);
+
+  // What draws `job` from now on, its scene included. False with errors in `diagnostics`: all stays as it was. The
+  // job must outlive the drawing.
+  bool set(const app::Job& job, Diagnostics& diagnostics);
+  // Another scene for the same graph.
+  void set_scene(const Scene& scene);
+
+  // Draws and waits; the picture stays on the device until the next call. Throws Failure.
+  gpu::Texture draw(const View& view, bool draft);
+  // Of the picture that was drawn last without draft: depth for annotations, empty if the graph makes none.
+  std::vector<float> read_depth();
+  // The whole picture as `mote render` makes it, annotated.
+  app::DrawnPicture picture(const app::Job& job, const View& view);
+  // Ids and depths within `radius` pixels of pixel (x, y) of the view. Nothing where the graph has no ids.
+  std::optional<PickArea> pick(const View& view, double x, double y, std::uint32_t radius);
+  // A source of the graph ("opaque.color") as the view shows it; nothing with errors in `diagnostics`.
+  std::optional<SlotPixels> slot(const std::string& source, const View& view, Diagnostics& diagnostics);
+
+  [[nodiscard]] bool draft_differs() const { return draft_differs_; } // fewer samples
+  [[nodiscard]] const DisplayTransform& display() const { return *display_; }
+  [[nodiscard]] app::FrameRenderer& renderer() { return *final_; }
+  [[nodiscard]] const std::string& graph_output() const { return final_->graph().output; }
+  [[nodiscard]] const app::DrawingDevice& device() const { return device_; }
+
+private:
+  std::unique_ptr<app::FrameRenderer> make(const app::GraphRequest& request, Diagnostics& diagnostics);
+
+  app::DrawingDevice& device_;
+  const ColorConfig& config_;
+  app::DisplayOptions options_;
+  passes::Expansion expansion_;
+  std::shared_ptr<passes::ParticleStore> store_{};
+  app::GraphRequest request_{};
+  const Scene* scene_{};
+  std::unique_ptr<app::FrameRenderer> final_{}, draft_{}, pick_{}, slot_{};
+  std::string slot_source_{};
+  std::optional<DisplayTransform> display_{};
+  bool draft_differs_{}, picks_{true};
+};
+
+} // namespace mote::window

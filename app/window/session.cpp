@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+#include "app/window/session.hpp"
+
+#include "app/codes.hpp"
+#include "app/library/provenance.hpp"
+#include "app/window/hud.hpp"
+#include "core/overlay/annotate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace mote::window {
+namespace {
+
+constexpr double zoom_a_step = 0.87, zoom_a_pixel = 1.006;
+constexpr double message_s = 4.0, double_click_s = 0.35, click_pixels = 4.0;
+
+using Clock = std::chrono::steady_clock;
+double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+
+// mote-1.png, or the first such name that no file has.
+std::string unused_name() {
+  std::error_code error;
+  for (int i = 1;; ++i) {
+    std::string name = fmt::format("mote-{}.png", i);
+    if (!std::filesystem::exists(name, error)) return name;
+  }
+}
+
+} // namespace
+
+Session::Session(app::DrawingDevice& device, const ColorConfig& config, app::JobRequest request, app::Job job, SessionOptions options)
+    : device_(device), options_(std::move(options)), request_(std::move(request)), job_(std::make_shared<app::Job>(std::move(job))),
+      control_(job_->scene.camera, job_->scene.bounds), pace_(options_.pace), painter_(device, config, options_.display, options_.expansion),
+      presenter_(device.device()), size_(job_->size) {
+  Diagnostics diagnostics;
+  if (!painter_.set(*job_, diagnostics)) {
+    for (const Diagnostic& d : diagnostics.list())
+      if (d.severity == Severity::Error) throw Failure(Exit::Failed, d);
+    fail(Exit::Failed, app::code::device_failed, {}, "the graph cannot be drawn");
+  }
+  pace_.set_draft_differs(painter_.draft_differs());
+  wishes_.title = fmt::format("{} - mote", job_->desc.name);
+}
+Session::~Session() = default;
+
+View Session::view(Size2d size) const { return make_view(control_.camera(), size, job_->scene.bounds.diagonal()); }
+
+void Session::message(std::string text) {
+  said_.push_back(text);
+  message_ = std::move(text);
+  message_until_ = now_ + message_s;
+  hud_stale_ = stale_ = true;
+}
+
+void Session::tell(const Diagnostics& diagnostics) {
+  for (const Diagnostic& d : diagnostics.list()) message(to_string(d));
+}
+
+void Session::moved(double now, bool held) {
+  job_->scene.camera = control_.camera();
+  pace_.changed(now, held);
+}
+
+void Session::handle(const Event& event, double now) {
+  now_ = now;
+  switch (event.kind) {
+  case Event::Kind::Keyboard: return on_key(event, now);
+  case Event::Kind::Text: return;
+  case Event::Kind::MouseButton: return on_button(event, now);
+  case Event::Kind::Move: return on_move(event, now);
+  case Event::Kind::Wheel:
+    mouse_ = {event.x, event.y};
+    control_.zoom(std::pow(zoom_a_step, event.wheel), event.x, event.y, size_);
+    return moved(now, held_.has_value());
+  case Event::Kind::Resize:
+    if (event.size != size_) pace_.changed(now, held_.has_value());
+    hud_stale_ |= event.size != size_ || event.scale != scale_;
+    size_ = event.size;
+    scale_ = event.scale > 0.0 ? event.scale : 1.0;
+    stale_ = true;
+    return;
+  case Event::Kind::Drop: return open(event.files, now);
+  case Event::Kind::Files: return reload(now);
+  case Event::Kind::Redraw: stale_ = true; return;
+  case Event::Kind::Close: wishes_.quit = true; return;
+  }
+}
+
+void Session::on_key(const Event& event, double now) {
+  if (!event.pressed) return;
+  if (const auto action = action_of(event.key, event.modifiers)) act(*action, now);
+}
+
+void Session::on_button(const Event& event, double now) {
+  mouse_ = {event.x, event.y};
+  if (event.pressed) {
+    if (held_) return; // one drag at a time
+    held_ = event.button;
+    held_modifiers_ = event.modifiers;
+    pressed_at_ = mouse_;
+    return;
+  }
+  if (held_ != event.button) return;
+  held_.reset();
+  if (glm::length(mouse_ - pressed_at_) < click_pixels * scale_ && event.button == Button::Left) {
+    if (now - last_click_ < double_click_s) act(Action::CenterHere, now);
+    last_click_ = now;
+  }
+  if (!pace_.refined()) pace_.changed(now, false);
+  pace_.let_go();
+}
+
+void Session::on_move(const Event& event, double now) {
+  const glm::dvec2 to{event.x, event.y}, by = to - mouse_;
+  mouse_ = to;
+  if (!held_ || !visible() || by == glm::dvec2(0)) return;
+  switch (gesture_of(*held_, held_modifiers_)) {
+  case Gesture::Orbit: control_.orbit(by.x, by.y, size_); break;
+  case Gesture::Pan: control_.pan(by.x, by.y, size_); break;
+  case Gesture::Zoom: control_.zoom(std::pow(zoom_a_pixel, by.y), pressed_at_.x, pressed_at_.y, size_); break;
+  }
+  moved(now, true);
+}
+
+void Session::act(Action action, double now) {
+  switch (action) {
+  case Action::ResetView: control_.reset(); return moved(now, false);
+  case Action::FrameAll: control_.frame_all(size_); return moved(now, false);
+  case Action::AxisX: control_.look_along(0, false); return moved(now, false);
+  case Action::AxisXBack: control_.look_along(0, true); return moved(now, false);
+  case Action::AxisY: control_.look_along(1, true); return moved(now, false); // from the front
+  case Action::AxisYBack: control_.look_along(1, false); return moved(now, false);
+  case Action::AxisZ: control_.look_along(2, false); return moved(now, false);
+  case Action::AxisZBack: control_.look_along(2, true); return moved(now, false);
+  case Action::ToggleProjection: control_.toggle_projection(); return moved(now, false);
+  case Action::ToggleTrackball:
+    control_.set_trackball(!control_.trackball());
+    return message(control_.trackball() ? "trackball" : "turntable");
+  case Action::ToggleFullScreen: wishes_.toggle_full_screen = true; return;
+  case Action::ToggleHelp:
+    help_ = !help_;
+    hud_stale_ = stale_ = true;
+    return;
+  case Action::Release:
+    if (!help_) wishes_.leave_full_screen = true;
+    help_ = false;
+    message_.clear();
+    hud_stale_ = stale_ = true;
+    return;
+  case Action::CopyCamera:
+    wishes_.clipboard = camera_toml(control_.camera());
+    return message("the camera is on the clipboard, as TOML");
+  case Action::Screenshot: return screenshot(unused_name());
+  case Action::Reload: return reload(now);
+  case Action::Quit: wishes_.quit = true; return;
+  default: return;
+  }
+}
+
+bool Session::load(const app::JobRequest& request, const char* what) {
+  Diagnostics diagnostics;
+  auto next = std::make_shared<app::Job>();
+  try {
+    *next = app::load_job(request, diagnostics);
+    if (!diagnostics.has_errors() && painter_.set(*next, diagnostics)) {
+      job_ = std::move(next);
+      pace_.set_draft_differs(painter_.draft_differs());
+      tell(diagnostics);
+      return true;
+    }
+  } catch (const Failure& failure) {
+    diagnostics.add(failure.diagnostic());
+  }
+  tell(diagnostics);
+  message(fmt::format("{}: the picture before stays", what));
+  return false;
+}
+
+void Session::open(const std::vector<std::string>& files, double now) {
+  if (files.empty()) return;
+  app::JobRequest request = request_;
+  request.words = files;
+  request.settings.clear();
+  request.graph.reset();
+  if (!load(request, "what was dropped cannot be shown")) return;
+  request_ = std::move(request);
+  control_ = CameraControl(job_->scene.camera, job_->scene.bounds);
+  wishes_.title = fmt::format("{} - mote", job_->desc.name);
+  moved(now, false);
+}
+
+void Session::reload(double now) {
+  if (!load(request_, "a file cannot be used")) return;
+  control_.set_bounds(job_->scene.bounds);
+  moved(now, false);
+  message("read again");
+}
+
+bool Session::wants_frame(double now) const { return visible() && (stale_ || pace_.wants_frame(now) || (!message_.empty() && now >= message_until_)); }
+
+std::optional<double> Session::due() const {
+  if (!visible()) return std::nullopt;
+  std::optional<double> when = pace_.due();
+  if (!message_.empty()) when = std::min(when.value_or(message_until_), message_until_);
+  return when;
+}
+
+void Session::render(double now) {
+  now_ = now;
+  if (!message_.empty() && now >= message_until_) {
+    message_.clear();
+    hud_stale_ = true;
+  }
+  rendered_ = false;
+  if (!visible() || !pace_.wants_frame(now)) return;
+  const Clock::time_point start = Clock::now();
+  draft_shown_ = pace_.draft(now);
+  Size2d size = size_;
+  if (draft_shown_) {
+    const auto part = [this](std::uint32_t length) { return std::max(1u, static_cast<std::uint32_t>(std::lround(length * pace_.scale()))); };
+    size = {part(size.width), part(size.height)};
+  }
+  picture_ = painter_.draw(view(size), draft_shown_);
+  render_ms_ = ms_since(start);
+  rendered_ = true;
+  if (!draft_shown_ || !job_->scene.annotations.cells.empty()) update_annotations();
+}
+
+// Legends stay as they are while something moves; edges of cells move along, without what hides them.
+void Session::update_annotations() {
+  FlatPicture flat;
+  if (!job_->scene.annotations.empty()) {
+    const overlay::Layer layer = overlay::draw_annotations(job_->scene, view(size_), draft_shown_ ? std::vector<float>{} : painter_.read_depth());
+    flat.size = size_;
+    flat.rgba.resize(std::size_t{size_.width} * size_.height * 4);
+    overlay::lay_over_display(layer, painter_.display(), std::span<std::uint8_t>(flat.rgba));
+    flat = cropped(flat);
+  }
+  presenter_.set("1 annotations", flat);
+}
+
+void Session::update_hud(double) {
+  std::vector<std::array<std::string, 2>> rows;
+  if (help_)
+    for (auto& row : help_rows()) rows.push_back(std::move(row));
+  presenter_.set("3 help", text_box(rows, HudPlace::Center, size_, scale_));
+  rows.clear();
+  for (std::size_t begin = 0; begin < message_.size();) {
+    const std::size_t end = std::min(message_.find('\n', begin), message_.size());
+    rows.push_back({message_.substr(begin, end - begin), {}});
+    begin = end + 1;
+  }
+  presenter_.set("2 message", text_box(rows, HudPlace::BottomLeft, size_, scale_));
+}
+
+void Session::compose(const gpu::Texture& target) {
+  const Clock::time_point start = Clock::now();
+  if (hud_stale_) update_hud(now_);
+  hud_stale_ = false;
+  device_.device().queue().wait(presenter_.compose(target, picture_));
+  device_.check();
+  if (rendered_) pace_.drew(draft_shown_, render_ms_ + ms_since(start));
+  rendered_ = stale_ = false;
+}
+
+std::string Session::command() const {
+  std::string text = "mote render";
+  for (const std::string& word : request_.words) text += " " + app::quoted(word);
+  for (const std::string& setting : request_.settings) text += " --set " + app::quoted(setting);
+  text += " --set " + app::quoted("camera=" + camera_inline(control_.camera()));
+  if (request_.graph) text += " --graph " + app::quoted(*request_.graph);
+  return text + fmt::format(" --size {}x{}", size_.width, size_.height);
+}
+
+void Session::screenshot(const std::string& path) {
+  if (!visible()) return message("a window without an area has no screenshot");
+  try {
+    job_->scene.camera = control_.camera();
+    app::Job shown = *job_; // of the window's size
+    shown.size = size_;
+    const app::DrawnPicture picture = painter_.picture(shown, view(size_));
+    app::SaveOptions options;
+    options.provenance = app::provenance_of(shown, options_.version, command(), device_.info().name, painter_.renderer().display_text());
+    app::save_picture(path, picture, options);
+    message("screenshot: " + path);
+  } catch (const Failure& failure) {
+    message(to_string(failure.diagnostic()));
+  }
+}
+
+} // namespace mote::window

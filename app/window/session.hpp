@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// A window's session without the window: events go in, pictures come out, wishes to the window system (title, clipboard,
+// full screen, the end) are left to be fetched. The host (host.hpp) gives it events of GLFW and a swapchain; tests give it
+// events of their own and a texture.
+//
+//   session.handle(event);                      // as many as there are
+//   if (session.wants_frame(now)) { session.render(now); session.compose(target); }
+//
+// One thread. Throws Failure only for what ends the program (the device is lost); everything a user does wrong becomes a message in
+// the window.
+#pragma once
+
+#include "app/window/actions.hpp"
+#include "app/window/camera_control.hpp"
+#include "app/window/pace.hpp"
+#include "app/window/painter.hpp"
+#include "app/window/presenter.hpp"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mote::window {
+
+struct SessionOptions {
+  app::DisplayOptions display{};
+  passes::Expansion expansion{passes::Expansion::Auto};
+  PaceOptions pace{};
+  std::string version{}; // for the provenance of screenshots
+};
+
+// What the session wants of the window system; fetched and cleared by the host.
+struct Wishes {
+  bool quit{}, toggle_full_screen{}, leave_full_screen{};
+  std::optional<std::string> clipboard{}, title{};
+  std::optional<std::vector<std::string>> watch{}; // files and folders to be told of
+};
+
+class Session {
+public:
+  // `request` is what `job` was loaded from: the session loads it again when files change.
+  Session(app::DrawingDevice& device, const ColorConfig& config, app::JobRequest request, app::Job job, SessionOptions options);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  void handle(const Event& event, double now);
+  [[nodiscard]] bool wants_frame(double now) const;
+  // When the next frame will be wanted though nothing happens.
+  [[nodiscard]] std::optional<double> due() const;
+  [[nodiscard]] bool refined() const { return pace_.refined() || !visible(); } // nothing better will come
+  // Draws the scene, if it or the way it is seen has changed.
+  void render(double now);
+  // The last picture with all that goes over it, into a texture of the window's size; waits.
+  void compose(const gpu::Texture& target);
+  [[nodiscard]] bool visible() const { return size_.width > 0 && size_.height > 0; }
+  [[nodiscard]] Size2d size() const { return size_; }
+
+  Wishes take_wishes() { return std::exchange(wishes_, {}); }
+  void screenshot(const std::string& path); // the picture as `mote render` makes it; a failure becomes a message
+  void message(std::string text);           // shown for some seconds
+  [[nodiscard]] const Camera& camera() const { return control_.camera(); }
+  [[nodiscard]] const app::Job& job() const { return *job_; }
+  [[nodiscard]] const Pace& pace() const { return pace_; }
+  [[nodiscard]] const std::vector<std::string>& messages() const { return said_; } // all so far, for tests and the terminal
+
+private:
+  void on_key(const Event& event, double now);
+  void on_button(const Event& event, double now);
+  void on_move(const Event& event, double now);
+  void act(Action action, double now);
+  void moved(double now, bool held); // the camera
+  void open(const std::vector<std::string>& files, double now);
+  void reload(double now);
+  bool load(const app::JobRequest& request, const char* what);
+  void tell(const Diagnostics& diagnostics);
+  void update_annotations();
+  void update_hud(double now);
+  [[nodiscard]] View view(Size2d size) const;
+  [[nodiscard]] std::string command() const;
+
+  app::DrawingDevice& device_;
+  SessionOptions options_;
+  app::JobRequest request_;
+  std::shared_ptr<app::Job> job_;
+  CameraControl control_;
+  Pace pace_;
+  Painter painter_;
+  Presenter presenter_;
+  Wishes wishes_{};
+  Size2d size_{};
+  double scale_{1.0};
+  gpu::Texture picture_{};
+  bool stale_{true};      // the window shows something older than the state
+  bool draft_shown_{};
+  double render_ms_{};
+  bool rendered_{};       // since the last compose
+  std::optional<Button> held_{};
+  Modifiers held_modifiers_{};
+  glm::dvec2 mouse_{0}, pressed_at_{0};
+  double last_click_{-1e9};
+  bool help_{}, hud_stale_{true};
+  std::vector<std::string> said_{};
+  std::string message_{};
+  double message_until_{-1e9}, now_{};
+};
+
+} // namespace mote::window
