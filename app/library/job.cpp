@@ -2,6 +2,7 @@
 #include "app/library/job.hpp"
 
 #include "app/codes.hpp"
+#include "app/library/job_text.hpp"
 #include "core/data/series.hpp"
 #include "passes/particles/selection.hpp"
 
@@ -86,10 +87,11 @@ void choose_frames(Job& job, const JobRequest& request, Diagnostics& diagnostics
 
 } // namespace
 
-SceneDesc describe_job(const JobRequest& request, Diagnostics& diagnostics, GraphRequest& graph) {
-  const Settings settings = split_settings(request.settings);
-  SceneDesc desc = describe(request.words, settings.scene, diagnostics);
-  graph.settings = settings.graph;
+namespace {
+
+// Which graph a scene is drawn with, before its contents are known.
+void choose_graph(const JobRequest& request, const SceneDesc& desc, GraphRequest& graph) {
+  graph.settings = split_settings(request.settings).graph;
   if (request.graph) {
     graph.graph = *request.graph;
     graph.loc = {"--graph"};
@@ -98,12 +100,24 @@ SceneDesc describe_job(const JobRequest& request, Diagnostics& diagnostics, Grap
     graph.loc = desc.graph->loc;
     if (desc.graph->loc.file != "--set") graph.folder = desc.folder;
   }
+}
+
+} // namespace
+
+SceneDesc describe_job(const JobRequest& request, Diagnostics& diagnostics, GraphRequest& graph) {
+  SceneDesc desc = describe(request.words, split_settings(request.settings).scene, diagnostics);
+  choose_graph(request, desc, graph);
   return desc;
 }
 
 Job load_job(const JobRequest& request, Diagnostics& diagnostics) {
+  return load_described(describe(request.words, split_settings(request.settings).scene, diagnostics), request, diagnostics);
+}
+
+Job load_described(SceneDesc desc, const JobRequest& request, Diagnostics& diagnostics) {
   Job job;
-  job.desc = describe_job(request, diagnostics, job.graph);
+  job.desc = std::move(desc);
+  choose_graph(request, job.desc, job.graph);
   job.size = request.size;
   job.graph.aovs = request.aovs;
   job.graph.every_aov = request.every_aov;

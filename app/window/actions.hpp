@@ -17,7 +17,7 @@ namespace mote::window {
 enum class Action : std::uint8_t {
   ResetView, FrameAll, AxisX, AxisXBack, AxisY, AxisYBack, AxisZ, AxisZBack, ToggleProjection, ToggleTrackball,
   ToggleFullScreen, TogglePanels, ToggleHelp, ToggleLegend, Screenshot, CopyCamera, Reload, Save, Undo, Redo,
-  Play, NextFrame, PreviousFrame, FirstFrame, LastFrame, CenterHere, GizmoMove, GizmoTurn, GizmoScale, Release, Quit,
+  Play, NextFrame, PreviousFrame, FirstFrame, LastFrame, CenterHere, Release, Quit,
 };
 
 struct Shortcut {

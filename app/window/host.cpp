@@ -3,6 +3,7 @@
 
 #include "app/codes.hpp"
 #include "app/window/glfw_input.hpp"
+#include "app/window/watch.hpp"
 #include "core/image/png.hpp"
 
 #define GLFW_INCLUDE_VULKAN
@@ -46,6 +47,8 @@ struct Host::Impl {
   gpu::Surface surface{};
   Size2d configured{};
   ScriptPlayer script{{}};
+  FileWatch watch{[] { glfwPostEmptyEvent(); }};
+  bool quit{};
   Seconds clock{};
   HostReport report{};
   std::optional<double> first_input{}; // that no picture has answered
@@ -57,7 +60,7 @@ struct Host::Impl {
   void wait(const Session& session);
   void play(Session& session);
   void perform(const Step& step, Session& session);
-  void grant(Session& session, bool& quit);
+  void grant(Session& session);
   void set_full_screen(bool on);
   void frame(Session& session);
   void window_shot(Session& session, const std::string& path);
@@ -145,6 +148,7 @@ void Host::Impl::frame(Session& session) {
   if (!surface.present()) configured = {};
   device->check();
   ++report.frames;
+  if (session.panels_shown()) report.panels_ms.push_back(session.panels_ms());
   if (first_input) report.input_ms.push_back((clock.now() - *first_input) * 1000.0);
   first_input.reset();
 }
@@ -170,8 +174,9 @@ void Host::Impl::set_full_screen(bool on) {
   if (mode) glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-void Host::Impl::grant(Session& session, bool& quit) {
+void Host::Impl::grant(Session& session) {
   const Wishes wishes = session.take_wishes();
+  if (wishes.watch) watch.set(*wishes.watch);
   quit |= wishes.quit;
   if (wishes.title) glfwSetWindowTitle(window, wishes.title->c_str());
   if (wishes.clipboard) glfwSetClipboardString(window, wishes.clipboard->c_str());
@@ -205,7 +210,14 @@ void Host::Impl::perform(const Step& step, Session& session) {
   case Step::Kind::Screenshot: return session.screenshot(step.text);
   case Step::Kind::WindowShot: return window_shot(session, step.text);
   case Step::Kind::Print: fmt::print("{}\n", step.text); std::fflush(stdout); return;
-  case Step::Kind::Quit: return session.handle({.kind = Event::Kind::Close}, clock.now());
+  case Step::Kind::Set: {
+    const std::size_t equals = step.text.find('=');
+    if (equals == std::string::npos) return session.message("'" + step.text + "' is not PATH=VALUE");
+    session.set(step.text.substr(0, equals), step.text.substr(equals + 1));
+    return;
+  }
+  case Step::Kind::Save: session.save(step.text); return;
+  case Step::Kind::Quit: quit = true; return;
   default: return;
   }
 }
@@ -221,16 +233,17 @@ void Host::Impl::play(Session& session) {
 
 HostReport Host::run(Session& session) {
   Impl& i = *impl_;
-  for (bool quit = false; !quit;) {
+  while (!i.quit) {
     i.wait(session);
+    if (Event changed{.kind = Event::Kind::Files}; !(changed.files = i.watch.take()).empty()) session.handle(changed, i.clock.now());
     for (const Event& event : i.input->take()) {
       const bool input = event.kind != Event::Kind::Redraw && event.kind != Event::Kind::Resize;
       if (input && !i.first_input) i.first_input = i.clock.now();
       session.handle(event, i.clock.now());
     }
     i.play(session);
-    i.grant(session, quit);
-    if (quit) break;
+    i.grant(session);
+    if (i.quit) break;
     if (session.wants_frame(i.clock.now())) i.frame(session);
     else i.first_input.reset(); // it changed nothing
   }

@@ -11,6 +11,8 @@
 
 namespace mote::window {
 
+inline constexpr double panel_width = 330.0, panel_part = 0.6; // of panels: pixels of a usual display, at most this part of the window
+
 enum class HudPlace : std::uint8_t { Center, TopLeft, BottomLeft };
 
 // Rows of two columns (the second may be empty), light on dark. `scale`: of the display (HiDPI). Rows that do not fit

@@ -32,21 +32,21 @@ void make_readable(app::ReadyGraph& graph) {
 
 } // namespace
 
-Painter::Painter(app::DrawingDevice& device, const ColorConfig& config, const app::DisplayOptions& display, passes::Expansion expansion)
-    : device_(device), config_(config), options_(display), expansion_(expansion) {}
+Painter::Painter(app::DrawingDevice& device, const app::DisplayOptions& display, passes::Expansion expansion)
+    : device_(device), options_(display), expansion_(expansion) {}
 
-std::unique_ptr<app::FrameRenderer> Painter::make(const app::GraphRequest& request, Diagnostics& diagnostics) {
+std::unique_ptr<app::FrameRenderer> Painter::make(const app::GraphRequest& request, const ColorConfig& config, Diagnostics& diagnostics) {
   std::optional<app::ReadyGraph> graph = app::ready_graph(request, diagnostics);
   if (!graph) return nullptr;
   make_readable(*graph);
-  auto made = std::make_unique<app::FrameRenderer>(device_, std::move(*graph), config_, options_, expansion_, frames_of_a_session, store_);
+  auto made = std::make_unique<app::FrameRenderer>(device_, std::move(*graph), config, options_, expansion_, frames_of_a_session, store_);
   store_ = made->store();
   return made;
 }
 
-bool Painter::set(const app::Job& job, Diagnostics& diagnostics) {
+bool Painter::set(const app::Job& job, std::shared_ptr<const ColorConfig> config, Diagnostics& diagnostics) {
   try {
-    std::unique_ptr<app::FrameRenderer> made = make(job.graph, diagnostics);
+    std::unique_ptr<app::FrameRenderer> made = make(job.graph, *config, diagnostics);
     if (!made || diagnostics.has_errors()) return false;
     app::warn_of_graph(job, made->graph(), diagnostics);
     made->set_scene(job.scene);
@@ -56,11 +56,12 @@ bool Painter::set(const app::Job& job, Diagnostics& diagnostics) {
     draft_.reset();
     pick_.reset();
     slot_.reset();
+    config_ = std::move(config); // nobody points to the one before any more
     picks_ = true;
     draft_differs_ = !fewer.empty();
     request_ = job.graph;
     scene_ = &job.scene;
-    display_.emplace(app::display_of(config_, options_, final_->graph().shown));
+    display_.emplace(app::display_of(*config_, options_, final_->graph().shown));
     return true;
   } catch (const Failure& failure) {
     diagnostics.add(failure.diagnostic());
@@ -81,7 +82,7 @@ gpu::Texture Painter::draw(const View& view, bool draft) {
     for (std::string& setting : draft_settings(request_)) request.settings.push_back(std::move(setting));
     request.depth_if_made = false;
     Diagnostics known; // the graph has been compiled before
-    draft_ = make(request, known);
+    draft_ = make(request, *config_, known);
     if (draft_) draft_->set_scene(*scene_);
   }
   app::FrameRenderer& renderer = draft && draft_ ? *draft_ : *final_;
@@ -108,7 +109,7 @@ std::optional<PickArea> Painter::pick(const View& view, double x, double y, std:
     for (std::string& setting : draft_settings(request_)) request.settings.push_back(std::move(setting));
     request.aovs = {app::Aov::Id, app::Aov::Depth};
     Diagnostics none; // a graph without ids cannot be picked
-    pick_ = make(request, none);
+    pick_ = make(request, *config_, none);
     picks_ = pick_ != nullptr;
     if (pick_) pick_->set_scene(*scene_);
   }
@@ -123,7 +124,7 @@ std::optional<SlotPixels> Painter::slot(const std::string& source, const View& v
   if (!slot_ || slot_source_ != source) {
     app::GraphRequest request = request_;
     request.dumps.push_back({source, {"slot"}});
-    slot_ = make(request, diagnostics);
+    slot_ = make(request, *config_, diagnostics);
     if (!slot_) return std::nullopt;
     slot_source_ = source;
     slot_->set_scene(*scene_);

@@ -18,12 +18,12 @@ namespace mote::window {
 
 class Painter {
 public:
-  // Device and config must outlive it.
-  Painter(app::DrawingDevice& device, const ColorConfig& config, const app::DisplayOptions& display, passes::Expansion expansion);
+  // The device must outlive it.
+  Painter(app::DrawingDevice& device, const app::DisplayOptions& display, passes::Expansion expansion);
 
   // What draws `job` from now on, its scene included. False with errors in `diagnostics`: all stays as it was. The
   // job must outlive the drawing.
-  bool set(const app::Job& job, Diagnostics& diagnostics);
+  bool set(const app::Job& job, std::shared_ptr<const ColorConfig> config, Diagnostics& diagnostics);
   // Another scene for the same graph.
   void set_scene(const Scene& scene);
 
@@ -45,10 +45,10 @@ public:
   [[nodiscard]] const app::DrawingDevice& device() const { return device_; }
 
 private:
-  std::unique_ptr<app::FrameRenderer> make(const app::GraphRequest& request, Diagnostics& diagnostics);
+  std::unique_ptr<app::FrameRenderer> make(const app::GraphRequest& request, const ColorConfig& config, Diagnostics& diagnostics);
 
   app::DrawingDevice& device_;
-  const ColorConfig& config_;
+  std::shared_ptr<const ColorConfig> config_{}; // before the renderers, which point to it
   app::DisplayOptions options_;
   passes::Expansion expansion_;
   std::shared_ptr<passes::ParticleStore> store_{};

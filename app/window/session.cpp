@@ -32,18 +32,19 @@ std::string unused_name() {
 
 } // namespace
 
-Session::Session(app::DrawingDevice& device, const ColorConfig& config, app::JobRequest request, app::Job job, SessionOptions options)
-    : device_(device), options_(std::move(options)), request_(std::move(request)), job_(std::make_shared<app::Job>(std::move(job))),
-      control_(job_->scene.camera, job_->scene.bounds), pace_(options_.pace), painter_(device, config, options_.display, options_.expansion),
-      presenter_(device.device()), size_(job_->size) {
+Session::Session(app::DrawingDevice& device, std::shared_ptr<const ColorConfig> config, app::JobRequest request, app::Job job, SessionOptions options)
+    : device_(device), config_(std::move(config)), options_(std::move(options)), request_(std::move(request)), job_(std::make_shared<app::Job>(std::move(job))),
+      document_(request_.words, app::split_settings(request_.settings).scene), loaded_camera_(job_->scene.camera), control_(job_->scene.camera, job_->scene.bounds),
+      pace_(options_.pace), painter_(device, options_.display, options_.expansion), presenter_(device.device()), size_(job_->size), panels_(make_panels(device.device())) {
   Diagnostics diagnostics;
-  if (!painter_.set(*job_, diagnostics)) {
+  if (!painter_.set(*job_, config_, diagnostics)) {
     for (const Diagnostic& d : diagnostics.list())
       if (d.severity == Severity::Error) throw Failure(Exit::Failed, d);
     fail(Exit::Failed, app::code::device_failed, {}, "the graph cannot be drawn");
   }
   pace_.set_draft_differs(painter_.draft_differs());
   wishes_.title = fmt::format("{} - mote", job_->desc.name);
+  watch_files();
 }
 Session::~Session() = default;
 
@@ -57,6 +58,7 @@ void Session::message(std::string text) {
 }
 
 void Session::tell(const Diagnostics& diagnostics) {
+  problems_ = diagnostics;
   for (const Diagnostic& d : diagnostics.list()) message(to_string(d));
 }
 
@@ -67,8 +69,12 @@ void Session::moved(double now, bool held) {
 
 void Session::handle(const Event& event, double now) {
   now_ = now;
+  if (panels_shown() && panels_->handle(event)) {
+    stale_ = true;
+    return;
+  }
   switch (event.kind) {
-  case Event::Kind::Keyboard: return on_key(event, now);
+  case Event::Kind::Keyboard: return on_key(event);
   case Event::Kind::Text: return;
   case Event::Kind::MouseButton: return on_button(event, now);
   case Event::Kind::Move: return on_move(event, now);
@@ -83,16 +89,16 @@ void Session::handle(const Event& event, double now) {
     scale_ = event.scale > 0.0 ? event.scale : 1.0;
     stale_ = true;
     return;
-  case Event::Kind::Drop: return open(event.files, now);
-  case Event::Kind::Files: return reload(now);
+  case Event::Kind::Drop: return open(event.files);
+  case Event::Kind::Files: return reload();
   case Event::Kind::Redraw: stale_ = true; return;
-  case Event::Kind::Close: wishes_.quit = true; return;
+  case Event::Kind::Close: return act(Action::Quit);
   }
 }
 
-void Session::on_key(const Event& event, double now) {
+void Session::on_key(const Event& event) {
   if (!event.pressed) return;
-  if (const auto action = action_of(event.key, event.modifiers)) act(*action, now);
+  if (const auto action = action_of(event.key, event.modifiers)) act(*action);
 }
 
 void Session::on_button(const Event& event, double now) {
@@ -107,7 +113,11 @@ void Session::on_button(const Event& event, double now) {
   if (held_ != event.button) return;
   held_.reset();
   if (glm::length(mouse_ - pressed_at_) < click_pixels * scale_ && event.button == Button::Left) {
-    if (now - last_click_ < double_click_s) act(Action::CenterHere, now);
+    if (held_modifiers_.control) {
+      picked_at(mouse_.x, mouse_.y);
+    } else if (now - last_click_ < double_click_s) {
+      act(Action::CenterHere);
+    }
     last_click_ = now;
   }
   if (!pace_.refined()) pace_.changed(now, false);
@@ -126,7 +136,8 @@ void Session::on_move(const Event& event, double now) {
   moved(now, true);
 }
 
-void Session::act(Action action, double now) {
+void Session::act(Action action) {
+  const double now = now_;
   switch (action) {
   case Action::ResetView: control_.reset(); return moved(now, false);
   case Action::FrameAll: control_.frame_all(size_); return moved(now, false);
@@ -146,8 +157,9 @@ void Session::act(Action action, double now) {
     hud_stale_ = stale_ = true;
     return;
   case Action::Release:
-    if (!help_) wishes_.leave_full_screen = true;
+    if (!help_ && picked_.empty()) wishes_.leave_full_screen = true;
     help_ = false;
+    picked_.clear();
     message_.clear();
     hud_stale_ = stale_ = true;
     return;
@@ -155,57 +167,45 @@ void Session::act(Action action, double now) {
     wishes_.clipboard = camera_toml(control_.camera());
     return message("the camera is on the clipboard, as TOML");
   case Action::Screenshot: return screenshot(unused_name());
-  case Action::Reload: return reload(now);
-  case Action::Quit: wishes_.quit = true; return;
-  default: return;
-  }
-}
-
-bool Session::load(const app::JobRequest& request, const char* what) {
-  Diagnostics diagnostics;
-  auto next = std::make_shared<app::Job>();
-  try {
-    *next = app::load_job(request, diagnostics);
-    if (!diagnostics.has_errors() && painter_.set(*next, diagnostics)) {
-      job_ = std::move(next);
-      pace_.set_draft_differs(painter_.draft_differs());
-      tell(diagnostics);
-      return true;
+  case Action::Reload: return reload();
+  case Action::ToggleLegend:
+    legend_ = !legend_;
+    return pace_.changed(now, held_.has_value());
+  case Action::TogglePanels:
+    panels_shown_ = !panels_shown_;
+    hud_stale_ = stale_ = true;
+    return;
+  case Action::Save: save(); return;
+  case Action::Undo: return undo();
+  case Action::Redo: return redo();
+  case Action::Play: return set_playing(!playing_);
+  case Action::NextFrame: return set_frame(frame() + 1 < frame_count() ? frame() + 1 : loop ? 0 : frame());
+  case Action::PreviousFrame: return set_frame(frame() > 0 ? frame() - 1 : loop ? frame_count() - 1 : 0);
+  case Action::FirstFrame: return set_frame(0);
+  case Action::LastFrame: return set_frame(frame_count() - 1);
+  case Action::CenterHere:
+    if (const auto here = pick(mouse_.x, mouse_.y)) {
+      control_.center_at(here->center);
+      return moved(now, false);
     }
-  } catch (const Failure& failure) {
-    diagnostics.add(failure.diagnostic());
+    return message("there is no particle to turn about");
+  case Action::Quit:
+    if (document_.changed() && now - quit_asked_ > message_s) {
+      quit_asked_ = now;
+      return message("the scene has changes that are not saved: Ctrl S saves them, closing once more drops them");
+    }
+    wishes_.quit = true;
+    return;
   }
-  tell(diagnostics);
-  message(fmt::format("{}: the picture before stays", what));
-  return false;
 }
 
-void Session::open(const std::vector<std::string>& files, double now) {
-  if (files.empty()) return;
-  app::JobRequest request = request_;
-  request.words = files;
-  request.settings.clear();
-  request.graph.reset();
-  if (!load(request, "what was dropped cannot be shown")) return;
-  request_ = std::move(request);
-  control_ = CameraControl(job_->scene.camera, job_->scene.bounds);
-  wishes_.title = fmt::format("{} - mote", job_->desc.name);
-  moved(now, false);
-}
-
-void Session::reload(double now) {
-  if (!load(request_, "a file cannot be used")) return;
-  control_.set_bounds(job_->scene.bounds);
-  moved(now, false);
-  message("read again");
-}
-
-bool Session::wants_frame(double now) const { return visible() && (stale_ || pace_.wants_frame(now) || (!message_.empty() && now >= message_until_)); }
+bool Session::wants_frame(double now) const { return visible() && (stale_ || pace_.wants_frame(now) || (!message_.empty() && now >= message_until_) || (playing_ && now >= next_frame_at_)); }
 
 std::optional<double> Session::due() const {
   if (!visible()) return std::nullopt;
   std::optional<double> when = pace_.due();
   if (!message_.empty()) when = std::min(when.value_or(message_until_), message_until_);
+  if (playing_) when = std::min(when.value_or(next_frame_at_), next_frame_at_);
   return when;
 }
 
@@ -216,6 +216,7 @@ void Session::render(double now) {
     hud_stale_ = true;
   }
   rendered_ = false;
+  if (playing_ && now >= next_frame_at_) play(now);
   if (!visible() || !pace_.wants_frame(now)) return;
   const Clock::time_point start = Clock::now();
   draft_shown_ = pace_.draft(now);
@@ -233,7 +234,7 @@ void Session::render(double now) {
 // Legends stay as they are while something moves; edges of cells move along, without what hides them.
 void Session::update_annotations() {
   FlatPicture flat;
-  if (!job_->scene.annotations.empty()) {
+  if (legend_ && !job_->scene.annotations.empty()) {
     const overlay::Layer layer = overlay::draw_annotations(job_->scene, view(size_), draft_shown_ ? std::vector<float>{} : painter_.read_depth());
     flat.size = size_;
     flat.rgba.resize(std::size_t{size_.width} * size_.height * 4);
@@ -249,31 +250,54 @@ void Session::update_hud(double) {
     for (auto& row : help_rows()) rows.push_back(std::move(row));
   presenter_.set("3 help", text_box(rows, HudPlace::Center, size_, scale_));
   rows.clear();
+  for (std::size_t i = 0; i < picked_.size(); ++i) {
+    for (const auto& row : picked_[i].rows) rows.push_back(row);
+    if (i + 1 < picked_.size()) rows.push_back({"distance", fmt::format("{:.6g}", glm::length(picked_[i + 1].center - picked_[i].center))});
+  }
+  if (picked_.size() == 3)
+    if (const auto angle = angle_at(picked_[0].center, picked_[1].center, picked_[2].center)) rows.push_back({"angle at the second", fmt::format("{:.6g} degrees", *angle)});
+  const auto beside = [this](FlatPicture box) { // the panels
+    if (panels_shown()) box.x += static_cast<std::int32_t>(std::min(panel_width * scale_, size_.width * panel_part));
+    return box;
+  };
+  presenter_.set("2 picked", beside(text_box(rows, HudPlace::TopLeft, size_, scale_)));
+  rows.clear();
   for (std::size_t begin = 0; begin < message_.size();) {
     const std::size_t end = std::min(message_.find('\n', begin), message_.size());
     rows.push_back({message_.substr(begin, end - begin), {}});
     begin = end + 1;
   }
-  presenter_.set("2 message", text_box(rows, HudPlace::BottomLeft, size_, scale_));
+  presenter_.set("2 message", beside(text_box(rows, HudPlace::BottomLeft, size_, scale_)));
 }
 
 void Session::compose(const gpu::Texture& target) {
   const Clock::time_point start = Clock::now();
   if (hud_stale_) update_hud(now_);
-  hud_stale_ = false;
-  device_.device().queue().wait(presenter_.compose(target, picture_));
+  hud_stale_ = stale_ = false;
+  std::function<void(gpu::RenderPass&)> further;
+  panels_ms_ = 0.0;
+  if (panels_shown()) {
+    const Clock::time_point began = Clock::now();
+    if (panels_->build(*this, size_, scale_, now_)) stale_ = true;
+    panels_->upload();
+    panels_ms_ = ms_since(began);
+    further = [this, format = target.format()](gpu::RenderPass& pass) { panels_->draw(pass, format); };
+  }
+  device_.device().queue().wait(presenter_.compose(target, picture_, further));
   device_.check();
   if (rendered_) pace_.drew(draft_shown_, render_ms_ + ms_since(start));
-  rendered_ = stale_ = false;
+  rendered_ = false;
 }
 
 std::string Session::command() const {
   std::string text = "mote render";
   for (const std::string& word : request_.words) text += " " + app::quoted(word);
+  if (job_->frame) text += fmt::format(" --frame {}", *job_->frame);
   for (const std::string& setting : request_.settings) text += " --set " + app::quoted(setting);
   text += " --set " + app::quoted("camera=" + camera_inline(control_.camera()));
   if (request_.graph) text += " --graph " + app::quoted(*request_.graph);
-  return text + fmt::format(" --size {}x{}", size_.width, size_.height);
+  text += fmt::format(" --size {}x{}", size_.width, size_.height);
+  return document_.changed() ? text + " # and what was not saved" : text;
 }
 
 void Session::screenshot(const std::string& path) {

@@ -12,10 +12,13 @@
 
 #include "app/window/actions.hpp"
 #include "app/window/camera_control.hpp"
+#include "app/window/document.hpp"
 #include "app/window/pace.hpp"
 #include "app/window/painter.hpp"
+#include "app/window/panels.hpp"
 #include "app/window/presenter.hpp"
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -41,7 +44,7 @@ struct Wishes {
 class Session {
 public:
   // `request` is what `job` was loaded from: the session loads it again when files change.
-  Session(app::DrawingDevice& device, const ColorConfig& config, app::JobRequest request, app::Job job, SessionOptions options);
+  Session(app::DrawingDevice& device, std::shared_ptr<const ColorConfig> config, app::JobRequest request, app::Job job, SessionOptions options);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -58,33 +61,75 @@ public:
   [[nodiscard]] bool visible() const { return size_.width > 0 && size_.height > 0; }
   [[nodiscard]] Size2d size() const { return size_; }
 
+  // ---- what panels, gizmos and scripts change; problems become messages ----
+  // A value of the scene ("light.sun.intensity") or of the graph ("opaque.samples"), as --set takes it. `merge`: as Document::set.
+  bool set(const std::string& path, const std::string& value, bool merge = false);
+  void undo();
+  void redo();
+  bool save(const std::string& path = {}); // with the camera as it is; empty: the scene's file, or a new one
+  void set_frame(std::uint64_t index);
+  [[nodiscard]] std::uint64_t frame() const { return job_->frame.value_or(0); }
+  [[nodiscard]] std::uint64_t frame_count();
+  void set_playing(bool on);
+  [[nodiscard]] bool playing() const { return playing_; }
+  double frames_a_second{10.0};
+  bool loop{true};
+  void set_camera(const Camera& camera); // no undo: cameras come and go
+  void act(Action action);               // what a key would do
+
+  // ---- what was picked ----
+  struct Picked {
+    std::uint32_t id{no_particle};
+    glm::dvec3 center{0};             // world
+    std::vector<std::array<std::string, 2>> rows{}; // attributes, in words
+  };
+  // The particle at a pixel, within a few pixels; nothing where there is none.
+  std::optional<Picked> pick(double x, double y);
+  [[nodiscard]] const std::vector<Picked>& picked() const { return picked_; }
+
   Wishes take_wishes() { return std::exchange(wishes_, {}); }
   void screenshot(const std::string& path); // the picture as `mote render` makes it; a failure becomes a message
   void message(std::string text);           // shown for some seconds
   [[nodiscard]] const Camera& camera() const { return control_.camera(); }
   [[nodiscard]] const app::Job& job() const { return *job_; }
   [[nodiscard]] const Pace& pace() const { return pace_; }
+  [[nodiscard]] const Document& document() const { return document_; }
+  [[nodiscard]] Painter& painter() { return painter_; }
+  [[nodiscard]] const CameraControl& control() const { return control_; }
+  [[nodiscard]] View view() const { return view(size_); }
+  [[nodiscard]] double panels_ms() const { return panels_ms_; }   // of the last frame
+  [[nodiscard]] double frame_ms() const { return render_ms_; }
+  [[nodiscard]] bool panels_shown() const { return panels_ && panels_shown_; }
+  [[nodiscard]] const Diagnostics& problems() const { return problems_; } // of what was read last
   [[nodiscard]] const std::vector<std::string>& messages() const { return said_; } // all so far, for tests and the terminal
 
 private:
-  void on_key(const Event& event, double now);
+  void on_key(const Event& event);
   void on_button(const Event& event, double now);
   void on_move(const Event& event, double now);
-  void act(Action action, double now);
   void moved(double now, bool held); // the camera
-  void open(const std::vector<std::string>& files, double now);
-  void reload(double now);
-  bool load(const app::JobRequest& request, const char* what);
+  void open(const std::vector<std::string>& files);
+  void reload();
+  bool take_text(const std::string& changed);  // the document's text as the scene; `changed`: the path that is another
+  bool take_job(app::Job next, Diagnostics& diagnostics);
+  [[nodiscard]] app::Job described(Diagnostics& diagnostics) const;
   void tell(const Diagnostics& diagnostics);
+  void watch_files();
+  void picked_at(double x, double y);
+  [[nodiscard]] std::optional<Picked> describe(std::uint32_t id) const;
+  void play(double now);
   void update_annotations();
   void update_hud(double now);
   [[nodiscard]] View view(Size2d size) const;
   [[nodiscard]] std::string command() const;
 
   app::DrawingDevice& device_;
+  std::shared_ptr<const ColorConfig> config_;
   SessionOptions options_;
   app::JobRequest request_;
   std::shared_ptr<app::Job> job_;
+  Document document_;
+  Camera loaded_camera_; // that the scene had when it was read
   CameraControl control_;
   Pace pace_;
   Painter painter_;
@@ -101,7 +146,12 @@ private:
   Modifiers held_modifiers_{};
   glm::dvec2 mouse_{0}, pressed_at_{0};
   double last_click_{-1e9};
-  bool help_{}, hud_stale_{true};
+  bool help_{}, hud_stale_{true}, legend_{true}, playing_{}, panels_shown_{true};
+  double next_frame_at_{}, quit_asked_{-1e9}, panels_ms_{};
+  std::uint64_t frames_known_{}; // 0: not asked yet
+  std::vector<Picked> picked_{};
+  std::unique_ptr<Panels> panels_{};
+  Diagnostics problems_{};
   std::vector<std::string> said_{};
   std::string message_{};
   double message_until_{-1e9}, now_{};

@@ -58,7 +58,7 @@ void run_view(const ViewRequest& request, const std::function<void(const Diagnos
   with.surface_extensions = host.surface_extensions();
   app::DrawingDevice device(with);
   host.open(device, job.desc.name);
-  const ColorConfig config = loading.get();
+  const auto config = std::make_shared<const ColorConfig>(loading.get());
   HostReport report;
   {
     Session session(device, config, request.job, std::move(job), {.display = request.display, .expansion = request.expansion, .version = request.version});

@@ -138,7 +138,15 @@ SceneDesc parse_scene(std::string_view text, const std::string& file, const std:
                       std::span<const std::string> overrides, Diagnostics& diagnostics) {
   Node root = config::parse(text, file, code::scene_syntax);
   apply_overrides(root, overrides);
-  return read_tree(root, file, folder, true, diagnostics);
+  SceneDesc scene = read_tree(root, file, folder, true, diagnostics);
+  for (DataDesc& data : scene.data) { // a generated scene that was saved
+    const std::string name = data.file.value.filename().string();
+    std::error_code error;
+    if (!is_generated_name(name) || std::filesystem::exists(data.file.value, error)) continue;
+    data.generated = parse_generated_name(name);
+    data.file.value.clear();
+  }
+  return scene;
 }
 
 SceneDesc read_scene(const std::filesystem::path& file, std::span<const std::string> overrides, Diagnostics& diagnostics) {

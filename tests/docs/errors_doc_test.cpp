@@ -2,6 +2,7 @@
 // docs/errors.md lists every code with its line, exactly as the code tables say, and no other. With
 // MOTE_UPDATE_DOCS=1 the table is written anew; then the test fails, so that nobody updates unseen.
 #include "app/codes.hpp"
+#include "app/window/codes.hpp"
 #include "core/color/codes.hpp"
 #include "core/compare/codes.hpp"
 #include "core/data/codes.hpp"
@@ -46,6 +47,7 @@ template <class Table> void add(std::vector<Row>& rows, const Table& table) {
 std::string table() {
   std::vector<Row> rows;
   add(rows, mote::app::app_codes);
+  add(rows, mote::window::window_codes);
   add(rows, mote::color_codes);
   add(rows, mote::data::code_table);
   add(rows, mote::data::field_code_table);
