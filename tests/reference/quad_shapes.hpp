@@ -5,6 +5,7 @@
 // (of each part of the arrow about its own middle) by 1 + grow: what a backward error of that size does.
 #pragma once
 
+#include "random_shapes.hpp"
 #include "scenes.hpp"
 
 #include <array>
@@ -21,8 +22,6 @@ inline Q3 q3(const glm::dvec3& v) { return {quad(v.x), quad(v.y), quad(v.z)}; }
 inline quad length(const Q3& v) { return root(dot(v, v)); }
 inline glm::dvec3 to_double(const Q3& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 inline quad magnitude(quad x) { return x < quad(0) ? -x : x; }
-
-using Record = std::array<glm::vec4, 4>;
 
 struct QuadHits {
   bool hit{};
