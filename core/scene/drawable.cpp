@@ -31,6 +31,7 @@ bool drawn(Verdict verdict, std::uint64_t row, Skipped& skipped) {
   case Verdict::NoRadius: ++skipped.radius; break;
   case Verdict::ZeroRadius: ++skipped.zero; break;
   case Verdict::NoShape: ++skipped.shape; break;
+  case Verdict::Told: break;
   case Verdict::NegativeRadius:
     if (skipped.negative++ == 0) skipped.negative_row = row;
     break;

@@ -19,6 +19,9 @@ struct GlyphType {
 // One line a type.
 constexpr std::array glyph_types{
     GlyphType{"capsule", make_axial},
+    GlyphType{"ellipsoid", make_oriented},
+    GlyphType{"box", make_oriented},
+    GlyphType{"superquadric", make_oriented},
 };
 
 } // namespace

@@ -18,10 +18,10 @@
 
 namespace mote {
 
-enum class Verdict : std::uint8_t { Draw, NoPosition, NoRadius, ZeroRadius, NegativeRadius, NoShape };
+enum class Verdict : std::uint8_t { Draw, NoPosition, NoRadius, ZeroRadius, NegativeRadius, NoShape, Told };
 
 // One of each per row of the frame; lengths in data units.
-struct Glyphs {
+struct Glyphs { // Verdict::Told: left out, and the maker has said why
   std::string type{"sphere"};          // of the batch
   std::uint32_t vec4s_per_record{1};
   std::vector<glm::dvec3> centers{};
@@ -43,6 +43,7 @@ GlyphMaker find_glyph_maker(std::string_view type); // null: spheres, or not kno
 const std::vector<std::string>& scene_particle_types(); // that a scene's `type` may name
 
 Glyphs make_axial(const FrameContext& context, const DataDesc& desc, const std::vector<double>& radii, Diagnostics& diagnostics);
+Glyphs make_oriented(const FrameContext& context, const DataDesc& desc, const std::vector<double>& radii, Diagnostics& diagnostics);
 
 // A vector column by name (three numbers a row): S021 when there is none, S022 for text, S041 for other numbers of components.
 const data::Column* wanted_vector(const FrameContext& context, const Located<std::string>& name, Diagnostics& diagnostics);

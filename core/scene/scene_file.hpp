@@ -83,6 +83,22 @@ struct AxialDesc {
   Anchor anchor{Anchor::Center};
 };
 
+// Of types with three axes of their own (ellipsoid, box, superquadric): half lengths and quaternions, or tensors.
+struct OrientedDesc {
+  std::optional<Located<std::string>> axes{};         // a vector column; absent: "shape", else the radius for all three
+  std::optional<glm::dvec3> constant_axes{};
+  std::optional<Located<std::string>> orientation{};  // a column of quaternions; absent: "orientation", else along the axes of space
+  std::optional<Located<std::string>> order{};        // "xyzw", "wxyz"; absent: the column's unit says it
+  std::optional<Located<std::string>> tensor{};       // a column of 6 or 9 numbers
+  std::optional<Located<std::string>> tensor_order{}; // "xx yy zz xy xz yz"
+  bool mean_squares{true};                            // axes are the roots of eigenvalues; else the eigenvalues
+  double probability{0.5};                            // of mean squares: what the ellipsoid holds of a normal distribution
+  double sharpness{3.0};                              // of superquadrics of tensors
+  double scale{1.0};
+  std::optional<glm::dvec2> exponents{};              // (e1, e2)
+  std::optional<Located<std::string>> exponents_of{}; // a column of two numbers
+};
+
 struct CellDesc { // of the periodic cell
   bool drawn{};
   glm::dvec3 color{0.25}; // working space
@@ -98,6 +114,7 @@ struct DataDesc {
   std::string type{"sphere"};
   RadiusDesc radius{};
   AxialDesc axial{};
+  OrientedDesc oriented{};
   ColorDesc color{};
   double alpha{1.0};
   AlphaDesc opacity{};                       // Constant: `alpha`

@@ -41,10 +41,86 @@ void read_axial(TableReader& reader, DataDesc& data) {
   axial.scale = reader.number("scale", config::positive).value_or(1.0);
 }
 
+// a vector's name, or [a, b, c]
+void read_axes(TableReader& reader, OrientedDesc& oriented) {
+  const Node* node = reader.find("axes");
+  if (!node) return;
+  if (node->kind == Kind::Text) {
+    oriented.axes = Located<std::string>{node->text, node->loc};
+    return;
+  }
+  if (node->kind != Kind::Array) return reader.wrong_type(*node, "axes", "a vector attribute's name, or [a, b, c]");
+  if (const auto v = reader.numbers<3>("axes", config::not_negative)) oriented.constant_axes = glm::dvec3((*v)[0], (*v)[1], (*v)[2]);
+}
+
+const std::vector<std::string> quaternion_orders{"xyzw", "wxyz"};
+
+// an attribute's name, or { attribute, order }
+void read_orientation(TableReader& outer, OrientedDesc& oriented) {
+  const Node* node = outer.find("orientation");
+  if (!node) return;
+  if (node->kind == Kind::Text) {
+    oriented.orientation = Located<std::string>{node->text, node->loc};
+    return;
+  }
+  if (node->kind != Kind::Table) return outer.wrong_type(*node, "orientation", "an attribute's name, or { attribute, order }");
+  TableReader reader(*node, outer.name_of("orientation"), reader_codes, outer.diagnostics());
+  if (const auto name = reader.text("attribute")) oriented.orientation = Located<std::string>{*name, reader.find("attribute")->loc};
+  else if (!reader.find("attribute")) reader.missing("attribute", "four numbers a particle");
+  if (const auto order = reader.word("order", quaternion_orders)) oriented.order = Located<std::string>{quaternion_orders[*order], reader.find("order")->loc};
+  reader.finish();
+}
+
+const std::vector<std::string> tensor_kinds{"mean_squares", "axes"};
+
+// an attribute's name, or { attribute, order, kind, probability, sharpness }
+void read_tensor(TableReader& outer, OrientedDesc& oriented) {
+  const Node* node = outer.find("tensor");
+  if (!node) return;
+  if (node->kind == Kind::Text) {
+    oriented.tensor = Located<std::string>{node->text, node->loc};
+    return;
+  }
+  if (node->kind != Kind::Table) return outer.wrong_type(*node, "tensor", "an attribute's name, or { attribute, order, kind, probability, sharpness }");
+  TableReader reader(*node, outer.name_of("tensor"), reader_codes, outer.diagnostics());
+  if (const auto name = reader.text("attribute")) oriented.tensor = Located<std::string>{*name, reader.find("attribute")->loc};
+  else if (!reader.find("attribute")) reader.missing("attribute", "six or nine numbers a particle");
+  if (const auto order = reader.text("order")) oriented.tensor_order = Located<std::string>{*order, reader.find("order")->loc};
+  if (const auto kind = reader.word("kind", tensor_kinds)) oriented.mean_squares = *kind == 0;
+  if (const auto p = reader.number("probability", {0.0, 1.0, true, true})) oriented.probability = *p;
+  if (const auto s = reader.number("sharpness", config::not_negative)) oriented.sharpness = *s;
+  reader.finish();
+}
+
+// [e1, e2], or the name of an attribute of two numbers
+void read_exponents(TableReader& reader, OrientedDesc& oriented) {
+  const Node* node = reader.find("exponents");
+  if (!node) return;
+  if (node->kind == Kind::Text) {
+    oriented.exponents_of = Located<std::string>{node->text, node->loc};
+    return;
+  }
+  if (node->kind != Kind::Array) return reader.wrong_type(*node, "exponents", "[e1, e2], or an attribute's name");
+  if (const auto v = reader.numbers<2>("exponents", {0.0, 2.0, true})) oriented.exponents = glm::dvec2((*v)[0], (*v)[1]);
+}
+
+void read_oriented(TableReader& reader, DataDesc& data) {
+  OrientedDesc& oriented = data.oriented;
+  read_axes(reader, oriented);
+  read_orientation(reader, oriented);
+  read_tensor(reader, oriented);
+  if (data.type == "superquadric") read_exponents(reader, oriented);
+  oriented.scale = reader.number("scale", config::positive).value_or(1.0);
+  const bool columns = oriented.axes || oriented.constant_axes || oriented.orientation;
+  if (oriented.tensor && columns)
+    reader.diagnostics().error(code::key_not_of_kind, oriented.tensor->loc, reader.name_of("tensor") + " says axes and orientation already; axes and orientation are for data without one");
+}
+
 } // namespace
 
 void read_shape(TableReader& reader, DataDesc& data) {
   if (find_glyph_maker(data.type) == make_axial) read_axial(reader, data);
+  if (find_glyph_maker(data.type) == make_oriented) read_oriented(reader, data);
 }
 
 } // namespace mote::scene_parser

@@ -9,7 +9,6 @@
 
 float visible_from() { return max(frame.sample_near_far.z, frame.depth_near.x); } // the near cut, or that of the depth encoding
 
-#ifdef AFFINE
 // Extent of (e . p) / z over the part of { center + (g, k) w, |w| <= 1 } with z >= n, as (min, max); m = (e . center, z of the
 // center); g, k: what the half axes reach along e and along z. For a sphere g = (r, 0, 0), k = (0, r, 0).
 vec2 affine_extent(vec2 m, vec3 g, vec3 k, float n) {
@@ -53,6 +52,7 @@ Proxy affine_proxy(vec3 center, mat3 half_axes) {
   return Proxy(vec2(x.x, y.x), vec2(x.y, y.y), max(n, center.z - depth));
 }
 
+#ifdef AFFINE
 Proxy ball_proxy(vec3 center, float radius) { return affine_proxy(center, mat3(radius)); }
 float ball_depth(float radius) { return radius * length(vec3(from_own(vec3(1.0, 0.0, 0.0)).z, from_own(vec3(0.0, 1.0, 0.0)).z, from_own(vec3(0.0, 0.0, 1.0)).z)); }
 

@@ -31,6 +31,7 @@ struct Bars {
   double most_ambiguous{0.01};   // fraction of the pixels: most of them count
   double depth_factor{1.0};      // times the bars on depth: the eye near a surface, see docs/accuracy.md
   double normal_factor{1.0};     // times the bar on normals: of shapes longer than thick, whose bounding ball says how large they are
+  double colors_off{0.0};        // fraction of the pixels whose color may be another: at edges between faces of one particle
 };
 class GpuTest : public ::testing::Test {
 protected:
