@@ -275,7 +275,6 @@ void Session::compose(const gpu::Texture& target) {
   if (hud_stale_) update_hud(now_);
   hud_stale_ = stale_ = false;
   std::function<void(gpu::RenderPass&)> further;
-  panels_ms_ = 0.0;
   if (panels_shown()) {
     const Clock::time_point began = Clock::now();
     if (panels_->build(*this, size_, scale_, now_)) stale_ = true;
