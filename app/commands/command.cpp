@@ -18,6 +18,7 @@ void add_scene_arguments(CLI::App& command, SceneArguments& a) {
   command.add_option("--set", a.settings, "change a value: camera.fov_y=40, light.sun.intensity=2, display.exposure=1")
       ->allow_extra_args(false)
       ->type_name("PATH=VALUE");
+  command.add_option("--style", a.style, "how molecules are shown: spacefill, ball_and_stick, licorice")->type_name("STYLE");
   command.add_option("--graph", a.graph, "shipped graph or graph file")->type_name("GRAPH");
   command.add_option("--size", a.size, "size of the picture in pixels, 1280x720 if not given")->type_name("WxH");
   command.add_option("--expansion", a.expansion, "how particles become fragments: auto, vertex, geometry, compute, point")->type_name("NAME");
@@ -68,6 +69,7 @@ JobRequest job_request(const SceneArguments& a) {
   JobRequest request;
   request.words = a.words;
   request.settings = a.settings;
+  if (!a.style.empty()) request.settings.push_back(fmt::format("style=\"{}\"", a.style));
   if (!a.graph.empty()) request.graph = a.graph;
   request.size = parse_size(a.size);
   return request;

@@ -18,7 +18,7 @@ namespace mote::app {
 // What to draw and how: words and options of render, bench, view, check.
 struct SceneArguments {
   std::vector<std::string> words{}, settings{};
-  std::string graph{}, size{"1280x720"}, expansion{"auto"};
+  std::string graph{}, size{"1280x720"}, expansion{"auto"}, style{};
 };
 struct DeviceArguments {
   DeviceOptions device{};

@@ -76,11 +76,12 @@ FileInfo read_file(const DataDesc& data, std::int64_t frame, Diagnostics& diagno
 }
 
 FileInfo generated_info(const std::string& name, const GeneratedName& generated) {
-  GeneratedSpheres spheres = generate(generated);
+  GeneratedParticles made = generate(generated);
   FileInfo info{name, "generated", 1, {}};
   info.frame.count = generated.count;
-  info.frame.columns.push_back({"position", 3, std::move(spheres.positions), ""});
-  info.frame.columns.push_back({"radius", 1, std::move(spheres.radii), ""});
+  info.frame.columns.push_back({"position", 3, std::move(made.positions), ""});
+  info.frame.columns.push_back({"radius", 1, std::move(made.radii), ""});
+  if (!made.ends.empty()) info.frame.columns.push_back({"end", 3, std::move(made.ends), ""});
   return info;
 }
 

@@ -54,12 +54,13 @@ inline constexpr std::string_view no_shape = "S042";
 inline constexpr std::string_view wrong_components = "S060";
 inline constexpr std::string_view order_unknown = "S061";
 inline constexpr std::string_view bad_orientation = "S062";
+inline constexpr std::string_view no_bonds = "S043";
 } // namespace code
 
 struct SceneCode {
   std::string_view code{}, line{};
 };
-inline constexpr std::array<SceneCode, 45> scene_codes{{
+inline constexpr std::array<SceneCode, 46> scene_codes{{
     {code::scene_unreadable, "error: a scene file is missing, is a folder or may not be read"},
     {code::scene_syntax, "error: a scene file is not TOML"},
     {code::scene_unknown_key, "error: a key that no scene has"},
@@ -79,7 +80,7 @@ inline constexpr std::array<SceneCode, 45> scene_codes{{
     {code::set_path, "error: --set names no place in the scene"},
     {code::data_file_missing, "error: a data file of the scene is not there"},
     {code::generated_name, "error: the name of a generated scene is malformed"},
-    {code::generated_type, "error: a generated scene needs a particle type that is not there yet"},
+    {code::generated_type, "error: a generated scene needs a particle type that versions before did not have"},
     {code::attribute_missing, "error: a file has no such attribute"},
     {code::attribute_is_text, "error: an attribute holds text where numbers are needed"},
     {code::element_missing, "error: colors by element are asked of a file without elements"},
@@ -97,7 +98,7 @@ inline constexpr std::array<SceneCode, 45> scene_codes{{
     {code::selection_empty, "warning: a selection leaves no particle"},
     {code::range_empty, "warning: no value of an attribute can be mapped (all NaN, or none above 0 for a logarithm)"},
     {code::no_cell, "error: wrapping, replicas or outlines need a periodic cell, image flags or a volume that the file does not have"},
-    {code::needs_cylinders, "error: a molecule style that needs cylinders, which this version does not draw"},
+    {code::needs_cylinders, "error: a molecule style that needs cylinders, which versions before there were any did not draw"},
     {code::range_sampled, "note: the range of a long series is that of some of its frames"},
     {code::alpha_range, "warning: opacities outside 0 to 1 are cut"},
     {code::not_a_vector, "error: a direction or an end is asked of an attribute that is no vector"},
@@ -105,6 +106,7 @@ inline constexpr std::array<SceneCode, 45> scene_codes{{
     {code::wrong_components, "error: an attribute has another number of components than axes, quaternions, tensors or exponents need"},
     {code::order_unknown, "error: the order of a quaternion's or tensor's components is not said, or is none"},
     {code::bad_orientation, "warning: quaternions that are not of length 1 are made so; those of no length, and singular or negative tensors, are left out"},
+    {code::no_bonds, "error: a style draws bonds, and the file has neither bonds nor elements to find them by"},
 }};
 
 } // namespace mote

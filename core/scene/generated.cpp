@@ -27,7 +27,7 @@ constexpr double half = 50.0;         // of the cube's edge
 constexpr double margin = 4.0;        // `fit` leaves room for the largest radius
 constexpr std::uint64_t most = 100'000'000;
 const std::vector<std::string> cameras{"fit", "fill", "inside"};
-const std::vector<std::string> kinds{"spheres", "crystal", "slab", "dust"}; // order of GeneratedKind
+const std::vector<std::string> kinds{"spheres", "crystal", "slab", "dust", "sticks", "arrows"}; // order of GeneratedKind
 constexpr double dust_depth = 0.65;   // areas of all dust over that of a face: 1 - e^-0.65 = 48 % is covered
 constexpr double pi = 3.14159265358979323846;
 
@@ -56,7 +56,7 @@ std::vector<std::string_view> fields_of(std::string_view name) {
 
 [[noreturn]] void refuse(std::string_view name, std::string text) {
   fail(Exit::Usage, code::generated_name, {}, fmt::format("generated scene '{}': {}", name, text),
-       {"A name is spheres|crystal|slab|dust:N:fit|fill|inside[:seed=S][:frame=K], for example spheres:1e5:fill"});
+       {"A name is spheres|crystal|slab|dust|sticks|arrows:N:fit|fill|inside[:seed=S][:frame=K], for example spheres:1e5:fill"});
 }
 
 std::uint64_t parse_count(std::string_view name, std::string_view word) {
@@ -90,20 +90,17 @@ void apply_option(std::string_view name, std::string_view field, GeneratedName& 
 
 bool is_generated_name(std::string_view name) {
   const std::string_view kind = name.substr(0, name.find(':'));
-  return name.find(':') != std::string_view::npos && (kind == "sticks" || std::find(kinds.begin(), kinds.end(), kind) != kinds.end());
+  return name.find(':') != std::string_view::npos && std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
 GeneratedName parse_generated_name(std::string_view name) {
   const std::vector<std::string_view> fields = fields_of(name);
-  if (fields[0] == "sticks")
-    fail(Exit::Usage, code::generated_type, {},
-         fmt::format("generated scene '{}' needs the particle type 'cylinder', which is not there yet", name),
-         {"Particle types: sphere"});
   const auto kind = std::find(kinds.begin(), kinds.end(), fields[0]);
   if (kind == kinds.end()) refuse(name, fmt::format("'{}' is unknown; there are {}", fields[0], list_of(kinds)));
   if (fields.size() < 2) refuse(name, "the number of particles is missing");
   GeneratedName out;
   out.kind = static_cast<GeneratedKind>(kind - kinds.begin());
+  if (particle_type_of(out.kind) != "sphere") out.seed = 2;
   out.count = parse_count(name, fields[1]);
   std::size_t next = 2;
   if (fields.size() > next && fields[next].find('=') == std::string_view::npos) {
@@ -117,8 +114,12 @@ GeneratedName parse_generated_name(std::string_view name) {
   return out;
 }
 
-GeneratedSpheres generate_spheres(std::uint64_t count, std::uint64_t seed) {
-  GeneratedSpheres out;
+std::string_view particle_type_of(GeneratedKind kind) {
+  return kind == GeneratedKind::Sticks ? "cylinder" : kind == GeneratedKind::Arrows ? "arrow" : "sphere";
+}
+
+GeneratedParticles generate_spheres(std::uint64_t count, std::uint64_t seed) {
+  GeneratedParticles out;
   const double spacing = 2 * half / std::pow(static_cast<double>(count), 1.0 / 3.0);
   out.radii.assign(count, double{static_cast<float>(0.4 * spacing)});
   out.positions.resize(3 * count);
@@ -132,8 +133,8 @@ GeneratedSpheres generate_spheres(std::uint64_t count, std::uint64_t seed) {
 namespace {
 
 // Touching spheres on a lattice of `across` sites along x and y; z in layers centered on 0.
-GeneratedSpheres lattice(std::uint64_t count, std::uint64_t across) {
-  GeneratedSpheres out;
+GeneratedParticles lattice(std::uint64_t count, std::uint64_t across) {
+  GeneratedParticles out;
   const double spacing = 2 * half / static_cast<double>(across);
   const std::uint64_t layer = across * across, layers = (count + layer - 1) / layer;
   out.radii.assign(count, double{static_cast<float>(0.5 * spacing)});
@@ -149,20 +150,44 @@ GeneratedSpheres lattice(std::uint64_t count, std::uint64_t across) {
   return out;
 }
 
+// Segments with uniform centers and directions, as long as the spacing; the ends are rounded to float32.
+GeneratedParticles segments(std::uint64_t count, std::uint64_t seed, double thickness) {
+  GeneratedParticles out;
+  const double spacing = 2 * half / std::pow(static_cast<double>(count), 1.0 / 3.0);
+  out.radii.assign(count, double{static_cast<float>(thickness * spacing)});
+  out.positions.resize(3 * count);
+  out.ends.resize(3 * count);
+  parallel_parts(count, thread_count(count, 65536), [&](std::uint32_t, std::uint64_t begin, std::uint64_t end) {
+    for (std::uint64_t i = begin; i < end; ++i) {
+      const auto u = [&](std::uint64_t k) { return uniform(seed, 5 * i + k); };
+      const double z = u(3) * 2 - 1, angle = u(4) * 2 * pi, s = std::sqrt(1 - z * z);
+      const std::array<double, 3> way{s * std::cos(angle), s * std::sin(angle), z};
+      for (std::uint64_t k = 0; k < 3; ++k) {
+        const double center = (u(k) * 2 - 1) * half, reach = way[k] * 0.5 * spacing;
+        out.positions[3 * i + k] = double{static_cast<float>(center - reach)};
+        out.ends[3 * i + k] = double{static_cast<float>(center + reach)};
+      }
+    }
+  });
+  return out;
+}
+
 // The least n with n^power >= count.
 std::uint64_t root(double count, double power) { return static_cast<std::uint64_t>(std::ceil(std::pow(count, 1.0 / power) - 1e-9)); }
 
 } // namespace
 
-GeneratedSpheres generate(const GeneratedName& name) {
+GeneratedParticles generate(const GeneratedName& name) {
   const auto count = static_cast<double>(name.count);
   switch (name.kind) {
   case GeneratedKind::Crystal: return lattice(name.count, root(count, 3));
   case GeneratedKind::Slab: return lattice(name.count, root(std::ceil(count / 4), 2));
+  case GeneratedKind::Sticks: return segments(name.count, name.seed, 0.1);
+  case GeneratedKind::Arrows: return segments(name.count, name.seed, 0.05);
   case GeneratedKind::Spheres:
   case GeneratedKind::Dust: break;
   }
-  GeneratedSpheres out = generate_spheres(name.count, name.seed);
+  GeneratedParticles out = generate_spheres(name.count, name.seed);
   if (name.kind == GeneratedKind::Dust) out.radii.assign(name.count, double{static_cast<float>(2 * half * std::sqrt(dust_depth / (pi * count)))});
   return out;
 }

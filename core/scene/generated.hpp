@@ -7,6 +7,8 @@
 //   crystal:N:...  touching spheres on a cubic lattice that fills the cube (a corner of it may be missing)
 //   slab:N:...     touching spheres on four layers of a square lattice across the cube, seen from their face: nothing to hide
 //   dust:N:...     uniform centers, all radii such that about half of what one looks through is covered
+//   sticks:N:...   cylinders with uniform centers and directions, as long as the mean spacing and a fifth as thick
+//   arrows:N:...   the same as arrows, with half that shaft
 //
 // fit sees the whole cube, fill stands so near that every pixel is hit, inside stands in the cloud and cuts at
 // near = 1 (the others need no cut: nothing lies before their near plane or behind their far plane). Frame k
@@ -27,7 +29,7 @@
 
 namespace mote {
 
-enum class GeneratedKind : std::uint8_t { Spheres, Crystal, Slab, Dust };
+enum class GeneratedKind : std::uint8_t { Spheres, Crystal, Slab, Dust, Sticks, Arrows };
 enum class GeneratedCamera : std::uint8_t { Fit, Fill, Inside };
 struct GeneratedName {
   std::uint64_t count{};
@@ -42,12 +44,14 @@ bool is_generated_name(std::string_view name);
 // Throws Failure (Usage, S019 or S020) for a name that cannot be understood or made.
 GeneratedName parse_generated_name(std::string_view name);
 
-struct GeneratedSpheres { // every value is a float32
+struct GeneratedParticles { // every value is a float32
   std::vector<double> positions{}; // x y z of each
   std::vector<double> radii{};
+  std::vector<double> ends{};      // x y z of the other end; sticks and arrows
 };
-GeneratedSpheres generate_spheres(std::uint64_t count, std::uint64_t seed);
-GeneratedSpheres generate(const GeneratedName& name); // of any kind
+std::string_view particle_type_of(GeneratedKind kind);
+GeneratedParticles generate_spheres(std::uint64_t count, std::uint64_t seed);
+GeneratedParticles generate(const GeneratedName& name); // of any kind
 
 Camera generated_camera(const GeneratedName& name);
 

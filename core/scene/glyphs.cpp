@@ -22,6 +22,9 @@ constexpr std::array glyph_types{
     GlyphType{"ellipsoid", make_oriented},
     GlyphType{"box", make_oriented},
     GlyphType{"superquadric", make_oriented},
+    GlyphType{"cylinder", make_axial},
+    GlyphType{"cone", make_axial},
+    GlyphType{"arrow", make_axial},
 };
 
 } // namespace

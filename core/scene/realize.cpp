@@ -3,6 +3,7 @@
 
 #include "core/data/series.hpp"
 #include "core/scene/assembly.hpp"
+#include "core/scene/bond_sticks.hpp"
 #include "core/scene/codes.hpp"
 #include "core/scene/drawable.hpp"
 #include "core/scene/expression.hpp"
@@ -21,11 +22,12 @@ namespace {
 constexpr std::uint64_t most_rows = 0xFFFFFFFEu;
 
 std::shared_ptr<const data::Frame> generated_frame(const GeneratedName& name) {
-  GeneratedSpheres spheres = generate(name);
+  GeneratedParticles made = generate(name);
   auto frame = std::make_shared<data::Frame>();
   frame->count = name.count;
-  frame->columns.push_back({"position", 3, std::move(spheres.positions), ""});
-  frame->columns.push_back({"radius", 1, std::move(spheres.radii), ""});
+  frame->columns.push_back({"position", 3, std::move(made.positions), ""});
+  frame->columns.push_back({"radius", 1, std::move(made.radii), ""});
+  if (!made.ends.empty()) frame->columns.push_back({"end", 3, std::move(made.ends), ""});
   return frame;
 }
 
@@ -66,7 +68,12 @@ std::vector<Instance> instances_of(const DataDesc& desc, const std::vector<glm::
 // Radii by the scene's rule; none where neither it nor the file says any and a type other than sphere has its own default.
 std::vector<double> radii_of(const FrameContext& context, const DataDesc& desc, GlyphMaker make, Diagnostics& diagnostics) {
   if (make && desc.radius.rule == RadiusRule::Auto && !context.frame.find("radius")) return {};
-  return particle_radii(context, desc.radius, diagnostics);
+  if (desc.style == MoleculeStyle::Licorice && desc.radius_by_style)
+    return std::vector<double>(context.frame.count, desc.bond_radius.value_or(usual_bond_radius(context.frame, desc.style)));
+  std::vector<double> radii = particle_radii(context, desc.radius, diagnostics);
+  if (desc.style == MoleculeStyle::BallAndStick && desc.radius_by_style)
+    for (double& r : radii) r *= ball_of_atom;
+  return radii;
 }
 
 // The largest reach of a particle from its row's position.
@@ -107,6 +114,7 @@ std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& contex
   if (make && !diagnostics.has_errors()) glyphs = make(context, desc, radii, diagnostics);
   if ((!make && radii.size() != frame.count) || diagnostics.has_errors()) return {};
   const std::string type = glyphs ? glyphs->type : desc.type;
+  const std::vector<std::uint32_t> atom_colors = desc.style == MoleculeStyle::None ? std::vector<std::uint32_t>() : colors.packed;
   const Drawable drawable = glyphs ? choose(context, std::move(*glyphs), radii, std::move(colors.packed), diagnostics)
                                    : choose(context, std::move(radii), std::move(colors.packed), diagnostics);
   if (!context.rows.empty() && drawable.rows.empty() && frame.count > 0)
@@ -114,18 +122,18 @@ std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& contex
   if (colors.key && std::find(annotations.keys.begin(), annotations.keys.end(), *colors.key) == annotations.keys.end())
     annotations.keys.push_back(std::move(*colors.key));
   std::vector<Batch> batches;
-  for (const Copies& group : groups) {
-    Batch batch;
-    batch.name = context.name;
-    batch.type = type;
-    batch.chunks = chunks_of(group.rows.empty() ? drawable : subset(drawable, group.rows));
-    batch.instances = instances_of(desc, replicas, group.transforms);
-    batch.material = desc.material;
-    batch.color = colors.constant;
-    batch.alpha = desc.alpha;
-    batch.row_count = frame.count;
-    batches.push_back(std::move(batch));
-  }
+  const auto add = [&](const std::string& shape, std::shared_ptr<const ChunkSet> chunks, const Copies& group, std::uint64_t rows) {
+    batches.push_back({.name = context.name, .type = shape, .chunks = std::move(chunks), .instances = instances_of(desc, replicas, group.transforms),
+                       .material = desc.material, .color = colors.constant, .alpha = desc.alpha, .row_count = rows});
+  };
+  for (const Copies& group : groups) add(type, chunks_of(group.rows.empty() ? drawable : subset(drawable, group.rows)), group, frame.count);
+  if (desc.style != MoleculeStyle::BallAndStick && desc.style != MoleculeStyle::Licorice) return batches;
+  const data::Bonds bonds = drawn_bonds(context, desc, diagnostics);
+  const double radius = desc.bond_radius.value_or(usual_bond_radius(frame, desc.style));
+  const bool open = desc.alpha < 1.0 || desc.opacity.rule != AlphaRule::Constant; // no discs inside of what one looks through
+  for (const Copies& group : groups)
+    if (const Drawable sticks = bond_sticks(frame, bonds, group.rows, atom_colors, radius, open); !sticks.rows.empty())
+      add("cylinder", chunks_of(sticks), group, bonds.rows.size());
   return batches;
 }
 

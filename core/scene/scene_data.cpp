@@ -76,11 +76,11 @@ void read_style(TableReader& reader, DataDesc& data) {
   const auto style = reader.word("style", styles);
   if (!style) return;
   data.style = static_cast<MoleculeStyle>(*style + 1);
-  if (data.style != MoleculeStyle::Spacefill)
-    reader.diagnostics().error(code::needs_cylinders, reader.find("style")->loc,
-                               fmt::format("{} is '{}': bonds are drawn as cylinders, which this version does not have", reader.name_of("style"), styles[*style]),
-                               {"style = \"spacefill\" draws atoms as spheres of their van der Waals radii"});
-  if (data.radius.rule == RadiusRule::Auto) data.radius = {RadiusRule::Element, 0.0, {}, reader.find("style")->loc};
+  if (data.type != "sphere")
+    reader.diagnostics().error(code::key_not_of_kind, reader.find("style")->loc, fmt::format("{} is for spheres; the type is '{}'", reader.name_of("style"), data.type));
+  data.radius_by_style = data.radius.rule == RadiusRule::Auto;
+  if (data.style != MoleculeStyle::Spacefill) data.bond_radius = reader.number("bond_radius", config::positive);
+  if (data.radius_by_style && data.style != MoleculeStyle::Licorice) data.radius = {RadiusRule::Element, 0.0, {}, reader.find("style")->loc};
   if (data.color.rule == ColorRule::Auto) data.color = {ColorRule::Element, glm::dvec3(0), {}, reader.find("style")->loc};
 }
 

@@ -123,7 +123,15 @@ SceneDesc read_tree(const Node& root, const std::string& name, const std::filesy
 
 void apply_overrides(Node& root, std::span<const std::string> overrides) {
   add_default_light(root);
-  for (const std::string& assignment : overrides) config::apply_override(root, assignment, code::set_path);
+  for (const std::string& assignment : overrides) {
+    if (!assignment.starts_with("style=")) {
+      config::apply_override(root, assignment, code::set_path);
+      continue;
+    }
+    const Node* data = root.find("data"); // of every data set
+    for (std::size_t i = 0; data && data->kind == Kind::Array && i < data->items.size(); ++i)
+      config::apply_override(root, fmt::format("data[{}].{}", i, assignment), code::set_path);
+  }
 }
 
 Node vec_node(const glm::dvec3& v) {
@@ -178,7 +186,9 @@ SceneDesc scene_by_name(std::string_view name, std::span<const std::string> over
   const GeneratedName generated = parse_generated_name(name);
   const Camera camera = generated_camera(generated);
   Node root;
-  root.set("data", config::array_node({config::table_node({{"file", config::text_node(name)}})}));
+  Node data = config::table_node({{"file", config::text_node(name)}, {"type", config::text_node(particle_type_of(generated.kind))}});
+  if (particle_type_of(generated.kind) != "sphere") data.set("end", config::text_node("end"));
+  root.set("data", config::array_node({std::move(data)}));
   Node& table = root.set("camera", config::table_node({{"eye", vec_node(camera.eye)},
                                                        {"target", vec_node(camera.target)},
                                                        {"up", vec_node(camera.up)},

@@ -70,17 +70,20 @@ struct AlphaDesc {
 };
 
 enum class Wrapping : std::uint8_t { AsInFile, Wrap, Unwrap };
-// How molecules are shown. The last two need cylinders.
+// How molecules are shown. The last two draw bonds as cylinders.
 enum class MoleculeStyle : std::uint8_t { None, Spacefill, BallAndStick, Licorice };
 
 // Of types with an axis (capsule, cylinder, cone, arrow). Measures: Auto where the type's own default applies.
 enum class Anchor : std::uint8_t { Center, Start, End }; // which point of the axis the position is
+enum class Ends : std::uint8_t { Flat, Open, Round };    // of cylinders
 struct AxialDesc {
   std::optional<Located<std::string>> direction{}, end{}; // vector columns; neither: the column "direction"
   std::optional<glm::dvec3> constant{};                   // one direction for all
   double scale{1.0};                                      // of the vectors' own lengths
   RadiusDesc length{};                                    // Auto: the vector's length times `scale`
-  Anchor anchor{Anchor::Center};
+  std::optional<Anchor> anchor{};                         // absent: arrows start there, others have their middle there
+  RadiusDesc radius_end{}, head_radius{}, head_length{};  // 0 is allowed where they are constants
+  Ends ends{Ends::Flat};
 };
 
 // Of types with three axes of their own (ellipsoid, box, superquadric): half lengths and quaternions, or tensors.
@@ -120,6 +123,8 @@ struct DataDesc {
   AlphaDesc opacity{};                       // Constant: `alpha`
   Material material{};
   MoleculeStyle style{MoleculeStyle::None};
+  bool radius_by_style{};                    // the style, not the scene, says how large atoms are
+  std::optional<double> bond_radius{};       // absent: the style's
   Wrapping wrapping{Wrapping::AsInFile};
   glm::ivec3 replicas{1};                    // along the edges of the cell
   CellDesc cell{};

@@ -13,6 +13,7 @@ using config::Node;
 using config::TableReader;
 
 const std::vector<std::string> anchors{"center", "start", "end"}; // order of Anchor
+const std::vector<std::string> ends{"flat", "open", "round"};     // order of Ends
 
 // direction = "column" or [x, y, z]
 void read_direction(TableReader& reader, AxialDesc& axial) {
@@ -35,10 +36,20 @@ void read_axial(TableReader& reader, DataDesc& data) {
   if (const auto end = reader.text("end")) axial.end = Located<std::string>{*end, reader.find("end")->loc};
   if (axial.end && (axial.direction || axial.constant))
     reader.diagnostics().error(code::key_not_of_kind, axial.end->loc, reader.name_of("end") + " and direction both say where the axis goes; one of them is enough");
-  axial.anchor = axial.end ? Anchor::Start : Anchor::Center;
+  if (axial.end) axial.anchor = Anchor::Start;
   if (const auto anchor = reader.word("anchor", anchors)) axial.anchor = static_cast<Anchor>(*anchor);
   axial.length = read_radius(reader, "length");
   axial.scale = reader.number("scale", config::positive).value_or(1.0);
+  if (data.type == "cylinder" || data.type == "cone") axial.radius_end = read_radius(reader, "radius_end");
+  if (data.type == "cylinder") {
+    if (const auto word = reader.word("ends", ends)) axial.ends = static_cast<Ends>(*word);
+    if (axial.ends == Ends::Round && axial.radius_end.rule != RadiusRule::Auto)
+      reader.diagnostics().error(code::key_not_of_kind, axial.radius_end.loc, reader.name_of("radius_end") + " does not go with ends = \"round\", which take one radius");
+  }
+  if (data.type == "arrow") {
+    axial.head_radius = read_radius(reader, "head_radius");
+    axial.head_length = read_radius(reader, "head_length");
+  }
 }
 
 // a vector's name, or [a, b, c]

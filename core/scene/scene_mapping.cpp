@@ -151,7 +151,7 @@ RadiusDesc read_radius(TableReader& reader, std::string_view key) {
     reader.wrong_type(*node, key, key == "radius" ? "a number, an attribute's name, \"element\", or { attribute, range, to }" : "a number, an attribute's name, or { attribute, range, to }");
     return {};
   }
-  const auto number = reader.as_number(*node, key, config::positive);
+  const auto number = reader.as_number(*node, key, key == "radius_end" ? config::not_negative : config::positive);
   return number ? RadiusDesc{RadiusRule::Constant, *number, {}, node->loc} : RadiusDesc{};
 }
 

@@ -13,12 +13,15 @@ namespace {
 const std::vector<Expansion> rectangles{Expansion::Vertex, Expansion::Geometry, Expansion::Compute}; // a point's square suits spheres only
 const std::vector<Expansion> with_points{Expansion::Vertex, Expansion::Geometry, Expansion::Compute, Expansion::Point};
 const std::vector<Phase> all_phases{Phase::Opaque, Phase::Surface, Phase::Transparent, Phase::Shadow};
-const std::array<ParticleType, 5> types{{
+const std::array<ParticleType, 8> types{{
     {"sphere", "center, radius", 1, 1, true, with_points, all_phases},
     {"capsule", "a segment and a radius: a cylinder with round ends", 2, 2, false, rectangles, all_phases},
     {"ellipsoid", "three axes of their own length and direction", 3, 4, false, rectangles, all_phases},
     {"box", "three axes of their own length and direction", 3, 4, false, rectangles, all_phases},
     {"superquadric", "three axes and two exponents (Barr): from octahedron over ellipsoid to box", 4, 4, false, rectangles, all_phases},
+    {"cylinder", "a segment and two radii, flat or open ends", 3, 3, false, rectangles, all_phases},
+    {"cone", "a segment and two radii (one may be 0), closed", 3, 3, false, rectangles, all_phases},
+    {"arrow", "a segment, shaft and head as one solid", 3, 3, false, rectangles, all_phases},
 }};
 
 constexpr std::array expansions{Expansion::Vertex, Expansion::Geometry, Expansion::Compute, Expansion::Point};

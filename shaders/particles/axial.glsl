@@ -45,10 +45,10 @@ vec2 between(AxialRay r, float lo, float hi) {
   return r.dz != 0.0 ? vec2(min(a, b), max(a, b)) : parallel_in ? vec2(-beyond, beyond) : vec2(beyond, -beyond);
 }
 
-// Where the ray is inside the endless body of radius rho(z) = radius + slope z around the axis (a cylinder with slope 0, a cone
-// of one nappe else).
-vec2 inside_round(AxialRay r, float radius, float slope) {
-  float rho = radius + slope * r.fz, rho_d = slope * r.dz;
+// Where the ray is inside the endless body of radius rho(z) = radius + slope (z - z0) around the axis (a cylinder with slope 0, a
+// cone of one nappe else).
+vec2 inside_round(AxialRay r, float radius, float slope, float z0) {
+  float rho = radius + slope * (r.fz - z0), rho_d = slope * r.dz;
   vec3 gv = rho * r.dp - rho_d * r.fp;
   float g = length(gv), x = abs(r.across);
   float discriminant = (g - x) * (g + x);
@@ -88,6 +88,47 @@ float distance_to_axis(OwnRay ray, AxialRay r, vec3 u, float lo, float hi) {
   float z = clamp(r.fz + nearest * r.dz, lo, hi);
   return length((ray.f - z * u) + (z * r.dz / dot(ray.d, ray.d)) * ray.d);
 }
+
+// A frustum or a cylinder between lo and hi, closed by discs: where the ray is inside, and in zw whether a disc ends that.
+vec4 inside_frustum(AxialRay r, float radius, float slope, float z0, float lo, float hi) {
+  vec2 side = inside_round(r, radius, slope, z0), slab = between(r, lo, hi), s = both(side, slab);
+  return vec4(s, slab.x > side.x ? 1.0 : 0.0, slab.y < side.y ? 1.0 : 0.0);
+}
+// At the point q of its surface: outward, in own space, not unit. `disc`: on one that the ray with direction d crosses.
+vec3 frustum_normal(vec3 q, vec3 d, vec3 u, float slope, bool disc, bool exit) {
+  vec3 across = q - dot(q, u) * u;
+  float away = length(across);
+  vec3 side = away > 0.0 ? across / away - slope * u : (slope > 0.0 ? -1.0 : 1.0) * u;
+  return disc ? ((dot(d, u) > 0.0) == exit ? 1.0 : -1.0) * u : side;
+}
+
+#ifdef TILES
+// The same for visibility in tiles: f is any point of the ray near the particle.
+struct TileRay {
+  float f_f, f_d, d_d, fz, dz, dp2, across;
+};
+TileRay tile_ray(vec2 f, vec2 d, vec3 u) {
+  vec3 dxu = vec3(d.y * u.z - u.y, u.x - d.x * u.z, d.x * u.y - d.y * u.x);
+  return TileRay(dot(f, f), dot(f, d), 1.0 + dot(d, d), dot(f, u.xy), dot(d, u.xy) + u.z, dot(dxu, dxu), dot(f, dxu.xy));
+}
+vec2 tile_round(TileRay r, float radius, float slope, float z0) {
+  float rho = radius + slope * (r.fz - z0), rho_d = slope * r.dz;
+  float fp_dp = r.f_d - r.fz * r.dz, fp2 = r.f_f - r.fz * r.fz;
+  float q = rho * rho * r.dp2 + rho_d * (rho_d * fp2 - 2.0 * rho * fp_dp) - r.across * r.across;
+  float a = r.dp2 - rho_d * rho_d, b = fp_dp - rho * rho_d;
+  float root = sqrt(max(q, 0.0)), inverse = 1.0 / (abs(a) > 1e-14 ? a : 1e-14);
+  float one = (-b - root) * inverse, other = (root - b) * inverse;
+  vec2 s = vec2(min(one, other), max(one, other));
+  vec2 closed = q >= 0.0 && rho - rho_d * b * inverse >= 0.0 ? s : vec2(beyond, -beyond);
+  vec2 open = rho_d > 0.0 ? vec2(s.y, beyond) : vec2(-beyond, s.x);
+  vec2 along = fp2 <= rho * rho ? vec2(-beyond, beyond) : vec2(beyond, -beyond);
+  return slope == 0.0 && r.dp2 < 1e-12 ? along : a > 0.0 ? closed : open;
+}
+vec2 tile_between(TileRay r, float lo, float hi) {
+  float inverse = 1.0 / (abs(r.dz) > 1e-20 ? r.dz : 1e-20), a = (lo - r.fz) * inverse, b = (hi - r.fz) * inverse;
+  return vec2(min(a, b), max(a, b));
+}
+#endif
 
 // Outlines of these types are not blended: covered or not, by the sample.
 Outline sampled_outline(bool covered) { return Outline(covered ? 1e3 : -1e3, vec2(1.0, 0.0), 1e3, vec2(0.0)); }

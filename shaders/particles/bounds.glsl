@@ -58,6 +58,7 @@ float ball_depth(float radius) { return radius * length(vec3(from_own(vec3(1.0, 
 
 Proxy disc_proxy(vec3 center, vec3 axis, float radius) {
   float s = axis.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + axis.z), b = axis.x * axis.y * a; // Duff et al., JCGT 6(1), 2017
+  radius = max(radius, 1e-6 * length(center)); // a point has an extent, too
   return affine_proxy(center, radius * mat3(vec3(1.0 + s * axis.x * axis.x * a, s * b, -s * axis.x), vec3(b, s + axis.y * axis.y * a, -axis.y), vec3(0.0)));
 }
 #else

@@ -5,6 +5,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -24,8 +25,13 @@ Glyph axial(const std::string& type, const glm::dvec3& center, const glm::dvec3&
   const auto r = static_cast<float>(radius);
   const double length = glm::length(glm::dvec3(hf));
   if (type == "capsule") return {center, (length + double{r}) * pad, double{r}, {glm::vec4(hf, r)}};
-  return {};
+  const double bound = std::hypot(length, double{r}) * pad;
+  if (type == "cylinder") return {center, bound, double{r}, {glm::vec4(hf, r), glm::vec4(r, 0, 0, 0)}};
+  if (type == "open_cylinder") return {center, bound, 0.5 * double{r}, {glm::vec4(hf, r), glm::vec4(0.5f * r, 1, 0, 0)}}; // and tapered
+  if (type == "cone") return {center, bound, double{r}, {glm::vec4(hf, r), glm::vec4(0, 0, 0, 0)}};
+  return {center, bound, 0.5 * double{r}, {glm::vec4(hf, 0.5f * r), glm::vec4(r, std::min(static_cast<float>(length), 2 * r), 0, 0)}}; // arrow
 }
+std::string type_of(const std::string& name) { return name == "open_cylinder" ? "cylinder" : name; }
 
 struct Cloud {
   std::size_t count{};
@@ -48,9 +54,9 @@ std::vector<Glyph> cloud_of(const std::string& type, const Cloud& c, unsigned se
 
 class Axial : public GpuTest, public ::testing::WithParamInterface<std::string> {
 protected:
-  [[nodiscard]] Scene cloud_scene(const Cloud& c, unsigned seed = 5) const { return glyph_scene(GetParam(), cloud_of(GetParam(), c, seed)); }
+  [[nodiscard]] Scene cloud_scene(const Cloud& c, unsigned seed = 5) const { return glyph_scene(type_of(GetParam()), cloud_of(GetParam(), c, seed)); }
 };
-INSTANTIATE_TEST_SUITE_P(Types, Axial, ::testing::Values("capsule"), [](const auto& type) { return type.param; });
+INSTANTIATE_TEST_SUITE_P(Types, Axial, ::testing::Values("capsule", "cylinder", "open_cylinder", "cone", "arrow"), [](const auto& type) { return type.param; });
 
 class CapsuleTest : public GpuTest {};
 
@@ -79,6 +85,66 @@ TEST_F(CapsuleTest, WithoutLengthIsASphere) {
   EXPECT_EQ(other, 0u);
 }
 
+class FrustumTest : public GpuTest {};
+
+// A cylinder of radius 1 seen along its axis is a disc at the depth of its near end; a cone of which the tip looks at the eye
+// has its tip there; an arrow from the side has its widest place at the head's base.
+TEST_F(FrustumTest, KnownDepthsAndOutlines) {
+  const auto straight = [&](const Scene& scene) { return look_orthographic(scene, {0, 0, 10}, {0, 0, 0}, {161, 161}, 8.05); }; // 20 pixels a unit
+  const Scene cylinder = glyph_scene("cylinder", {axial("cylinder", {0, 0, 0}, {0, 0, 2}, 1)});
+  Picture p = check(cylinder, straight(cylinder));
+  EXPECT_FLOAT_EQ(p.depth[p.at(80, 80)], 8.0f);
+  EXPECT_FLOAT_EQ(p.depth[p.at(98, 80)], 8.0f);
+  EXPECT_EQ(p.normal[p.at(80, 80)], glm::vec4(0, 0, 1, 0));
+  EXPECT_EQ(p.id[p.at(101, 80)], 0xFFFFFFFFu);
+  const Scene cone = glyph_scene("cone", {axial("cone", {0, 0, 0}, {0, 0, 2}, 1)});
+  p = check(cone, straight(cone));
+  EXPECT_FLOAT_EQ(p.depth[p.at(80, 80)], 8.0f);
+  EXPECT_NEAR(p.depth[p.at(90, 80)], 8.0 + 2.0, 2e-6); // half the radius: half the height
+  EXPECT_LT(glm::length(glm::dvec3(p.normal[p.at(90, 80)]) - glm::dvec3(4, 0, 1) / std::sqrt(17.0)), 1e-6);
+  const Scene arrow = glyph_scene("arrow", {axial("arrow", {0, 0, 0}, {2.5, 0, 0}, 1)}); // shaft 0.5, head 1 and 2 long
+  p = check(arrow, straight(arrow));
+  EXPECT_FLOAT_EQ(p.depth[p.at(60, 80)], 9.5f);
+  EXPECT_EQ(p.id[p.at(60, 91)], 0xFFFFFFFFu);
+  EXPECT_EQ(p.id[p.at(91, 98)], 0u);
+  EXPECT_EQ(p.id[p.at(111, 88)], 0u); // half way to the tip, 0.5 wide
+  EXPECT_EQ(p.id[p.at(111, 92)], 0xFFFFFFFFu);
+}
+
+// What is degenerate: an axis along the view, radii equal but for the last bit, needles, head as long as the arrow, none at all.
+TEST_F(FrustumTest, DegenerateShapes) {
+  std::vector<Glyph> cylinders, arrows;
+  const float r = 0.3f, other = std::nextafter(r, 1.0f);
+  for (int i = 0; i < 16; ++i) {
+    const glm::dvec3 center((i % 4 - 1.5) * 2, (i / 4 - 1.5) * 2, 0);
+    const double tilt = i < 8 ? 0.0 : std::pow(10.0, -i + 7); // along the axis of the view, and nearly
+    Glyph g = axial("cylinder", center, {tilt, 0, 1}, i % 3 ? 0.3 : 0.001);
+    if (i % 3) g.rest = {glm::vec4(glm::vec3(g.rest[0]), i % 3 == 1 ? other : r), glm::vec4(i % 3 == 1 ? r : other, i % 2, 0, 0)};
+    g.bound *= 1.001;
+    cylinders.push_back(g);
+    Glyph a = axial("arrow", center, {tilt, 0.02 * i, 1}, 0.4);
+    a.rest[1].y = i % 2 ? 2.0f * glm::length(glm::vec3(a.rest[0])) * 0.999999f : 0.001f;
+    arrows.push_back(a);
+  }
+  const Scene a = glyph_scene("cylinder", cylinders), b = glyph_scene("arrow", arrows);
+  for (const Scene* scene : {&a, &b}) {
+    check(*scene, look_orthographic(*scene, {0, 0, 30}, {0, 0, 0}, {200, 200}, 9), {.least_hits = 0.01, .most_ambiguous = 0.03, .normal_factor = 100});
+    check(*scene, look(*scene, {1, 2, 12}, {0, 0, 0}, {200, 200}, 45), {.least_hits = 0.01, .most_ambiguous = 0.03, .normal_factor = 100});
+  }
+}
+
+// A needle 1e5 times as long as thick; its axis is rounded to float32, which moves its far ends: see docs/accuracy.md.
+TEST_F(FrustumTest, Needles) {
+  for (const std::string type : {"capsule", "cylinder", "arrow"}) {
+    const Scene scene = glyph_scene(type, {axial(type, {0, 0, 0}, {100, 30, 5}, 0.001), axial(type, {0, 1, 1}, {-80, 40, -6}, 0.002)});
+    const View view = look(scene, {0.1, 0.2, 3}, {0, 0, 0}, {320, 200}, 3);
+    const Picture p = draw(scene, view, {.expansion = passes::Expansion::Vertex});
+    const std::size_t hits = static_cast<std::size_t>(std::count_if(p.id.begin(), p.id.end(), [](std::uint32_t id) { return id != 0xFFFFFFFFu; }));
+    EXPECT_GT(hits, 200u) << type;
+    expect_equals_reference(p, scene, view, {.least_hits = 0.001, .most_ambiguous = 0.05, .depth_factor = 1000, .normal_factor = 3e5});
+  }
+}
+
 TEST_P(Axial, CloudPerspective) {
   const Scene scene = cloud_scene({2500, 8, 0.05, 0.6});
   check(scene, look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200}), {.least_hits = 0.2, .normal_factor = 6});
@@ -94,7 +160,7 @@ TEST_P(Axial, CloudOrthographic) {
 TEST_P(Axial, EyeInside) {
   std::vector<Glyph> glyphs = cloud_of(GetParam(), {1500, 10, 0.05, 0.6});
   glyphs.push_back(axial(GetParam(), {0.1, 0.2, 0.3}, {2, 1, 0.5}, 1.5)); // holds the eye
-  const Scene scene = glyph_scene(GetParam(), glyphs);
+  const Scene scene = glyph_scene(type_of(GetParam()), glyphs);
   check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.9, .depth_factor = 3, .normal_factor = 6});
 }
 
@@ -111,7 +177,7 @@ TEST_P(Axial, FarFromTheOrigin) {
   const glm::dvec3 o(1e6, -1e6, 1e6);
   std::vector<Glyph> glyphs = cloud_of(GetParam(), {1500, 8, 0.05, 0.6});
   for (Glyph& g : glyphs) g.center += o;
-  const Scene scene = glyph_scene(GetParam(), glyphs);
+  const Scene scene = glyph_scene(type_of(GetParam()), glyphs);
   check(scene, look(scene, o + glm::dvec3(9, 12, 30), o, {320, 200}), {.least_hits = 0.1, .normal_factor = 6});
 }
 
@@ -120,13 +186,13 @@ TEST_P(Axial, FarAway) {
   for (const double far : {1e3, 1e5}) {
     std::vector<Glyph> glyphs;
     for (int i = 0; i < 9; ++i) glyphs.push_back(axial(GetParam(), {(i % 3 - 1) * 5.0, (i / 3 - 1) * 5.0, 0.0}, {0.9 * std::cos(i), 0.9 * std::sin(i), 0.3 * i - 1}, 0.7));
-    const Scene scene = glyph_scene(GetParam(), glyphs);
+    const Scene scene = glyph_scene(type_of(GetParam()), glyphs);
     check(scene, look(scene, {0.3 * far, 0.2 * far, far}, {0, 0, 0}, {200, 200}, glm::degrees(20.0 / far)), {.least_hits = 0.05, .normal_factor = far > 1e4 ? 60.0 : 6.0});
   }
 }
 
 TEST_P(Axial, InstancesOfEveryKind) {
-  Scene scene = placed(glyph_scene(GetParam(), cloud_of(GetParam(), {150, 3, 0.1, 0.5}), {0xFF3080F0u, 0xFF80F030u}),
+  Scene scene = placed(glyph_scene(type_of(GetParam()), cloud_of(GetParam(), {150, 3, 0.1, 0.5}), {0xFF3080F0u, 0xFF80F030u}),
                        {moved(-7, 0, 0), moved(0, 0, 0) * scaled(1, -0.5, 1), moved(7, 0, 0) * turned(0.3, {1, 0, 1}) * scaled(-1, 1, 1), moved(0, 5, 0) * general()});
   scene.batches[0].id_base = 1000;
   check(scene, look(scene, {2, 6, 30}, {0, 0, 0}, {320, 200}), {.least_hits = 0.1, .normal_factor = 12});
@@ -136,7 +202,7 @@ TEST_P(Axial, InstancesOfEveryKind) {
 TEST_P(Axial, UnevenlyScaledFromInside) {
   std::vector<Glyph> glyphs = cloud_of(GetParam(), {600, 6, 0.05, 0.6});
   glyphs.push_back(axial(GetParam(), {0.1, 0.2, 0.3}, {2, 1, 0.5}, 1.5));
-  const Scene scene = placed(glyph_scene(GetParam(), glyphs), {general()});
+  const Scene scene = placed(glyph_scene(type_of(GetParam()), glyphs), {general()});
   check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.8, .depth_factor = 6, .normal_factor = 12});
   View cut = look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200});
   cut.near_cut = 31.0;

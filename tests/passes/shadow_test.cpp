@@ -133,7 +133,7 @@ TEST_P(Shadows, FewPixelsAreWrongInWindowsOfAnyShape) {
 // The scene that speed and accuracy are stated for, at the map's default size. MOTE_ACCURACY=full (tests/accuracy.sh)
 // draws it in full-size windows, too.
 TEST_P(Shadows, TheBenchmarkSceneAtTheDefaultSize) {
-  const GeneratedSpheres made = generate_spheres(100000, 1);
+  const GeneratedParticles made = generate_spheres(100000, 1);
   std::vector<glm::dvec4> spheres;
   for (std::size_t i = 0; i < made.radii.size(); ++i) spheres.push_back({made.positions[3 * i], made.positions[3 * i + 1], made.positions[3 * i + 2], made.radii[i]});
   Scene scene = scene_of(spheres);

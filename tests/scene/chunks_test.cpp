@@ -146,7 +146,7 @@ TEST(Chunks, CoincidingParticlesAreAllKept) {
 }
 
 TEST(Chunks, Float32CoordinatesAreKeptExactly) {
-  const GeneratedSpheres g = generate_spheres(20000, 5);
+  const GeneratedParticles g = generate_spheres(20000, 5);
   Particles p;
   for (std::size_t i = 0; i < g.radii.size(); ++i)
     p.add({g.positions[3 * i], g.positions[3 * i + 1], g.positions[3 * i + 2]}, g.radii[i]);
@@ -190,7 +190,7 @@ TEST(Chunks, DenseClusterInAWideBoxIsSortedWithin) {
 }
 
 TEST(Chunks, AMillionSpheresTakeAFractionOfASecond) {
-  const GeneratedSpheres g = generate_spheres(1000000, 1);
+  const GeneratedParticles g = generate_spheres(1000000, 1);
   Particles p;
   for (std::size_t i = 0; i < g.radii.size(); ++i)
     p.add({g.positions[3 * i], g.positions[3 * i + 1], g.positions[3 * i + 2]}, g.radii[i]);

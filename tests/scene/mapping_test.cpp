@@ -142,8 +142,62 @@ TEST_F(Mapped, StylesOfMolecules) {
   EXPECT_FLOAT_EQ(radius(s, 0), 2.27f); // Bondi's sodium
   (void)scene("a.csv", "style = \"spacefill\"");
   EXPECT_TRUE(diagnostics.has("S023")) << printed();
-  (void)scene("c.xyz", "style = \"licorice\"");
-  EXPECT_TRUE(diagnostics.has("S038")) << printed();
+  (void)scene("a.csv", "style = \"licorice\"");
+  EXPECT_TRUE(diagnostics.has("S023")) << printed();
+}
+
+// Two carbons that are neighbors across a skewed cell: each half bond goes from its atom a quarter of the way at a time.
+TEST_F(Mapped, BondsCrossPeriodicCells) {
+  write("m.xyz", "2\nLattice=\"10 0 0 3 10 0 0 0 10\" Properties=species:S:1:pos:R:3\nC 0.5 0 5\nC 12.4 9.5 5\n"); // minus a and b: -0.6, -0.5
+  for (const char* style : {"licorice", "ball_and_stick"}) {
+    const Scene s = scene("m.xyz", (std::string("style = \"") + style + "\"").c_str());
+    ASSERT_FALSE(diagnostics.has_errors()) << printed();
+    ASSERT_EQ(s.batches.size(), 2u);
+    EXPECT_EQ(s.batches[1].type, "cylinder");
+    EXPECT_EQ(s.batches[1].id_base, 2u);
+    EXPECT_EQ(s.batches[1].row_count, 1u);
+    const ChunkSet& sticks = *s.batches[1].chunks;
+    ASSERT_EQ(sticks.vec4s_per_record, 3u);
+    bool seen = false;
+    for (std::uint64_t i = 0; i < sticks.record_count(); ++i) {
+      if (sticks.rows[i] == no_row) continue;
+      const glm::vec4 h = sticks.records[3 * i + 1];
+      EXPECT_NEAR(std::abs(h.x), 1.1 / 4, 1e-6);
+      EXPECT_NEAR(std::abs(h.y), 0.5 / 4, 1e-6);
+      EXPECT_FLOAT_EQ(h.w, style == std::string("licorice") ? 0.25f : 0.12f);
+      seen = seen || glm::length(sticks.center(i) - glm::dvec3(0.5 - 1.1 / 4, -0.5 / 4, 5)) < 1e-5;
+    }
+    EXPECT_TRUE(seen) << "the half at the first atom";
+    EXPECT_FLOAT_EQ(radius(s, 0), style == std::string("licorice") ? 0.25f : 0.25f * 1.7f);
+  }
+}
+
+TEST_F(Mapped, VectorsBecomeGlyphs) {
+  write("v.csv", "x,y,z,velocity.x,velocity.y,velocity.z,size\n0,0,0,3,4,0,1\n5,0,0,0,0,0,2\n9,0,0,nan,0,0,3\n12,0,0,0,0,2,4\n");
+  const Scene s = scene("v.csv", "type = \"arrow\"\ndirection = \"velocity\"\nscale = 0.5\nradius = 0.1\nhead_radius = 0.3\nhead_length = 4.0");
+  EXPECT_FALSE(diagnostics.has_errors()) << printed();
+  EXPECT_TRUE(diagnostics.has("S042")) << printed(); // one has no length, one no number
+  const ChunkSet& arrows = *s.batches.at(0).chunks;
+  ASSERT_EQ(s.batches[0].type, "arrow");
+  std::size_t drawn = 0;
+  for (std::uint64_t i = 0; i < arrows.record_count(); ++i) {
+    if (arrows.rows[i] == no_row) continue;
+    ++drawn;
+    EXPECT_TRUE(arrows.rows[i] == 0 || arrows.rows[i] == 3);
+    if (arrows.rows[i] != 0) continue;
+    EXPECT_LT(glm::length(glm::dvec3(arrows.records[3 * i + 1]) - glm::dvec3(0.75, 1.0, 0)), 1e-6);
+    EXPECT_LT(glm::length(arrows.center(i) - glm::dvec3(0.75, 1.0, 0)), 1e-6) << "the tail is at the position";
+    EXPECT_LE(arrows.records[3 * i + 2].y, 2.5f) << "a head is no longer than its arrow";
+  }
+  EXPECT_EQ(drawn, 2u);
+  (void)scene("v.csv", "type = \"capsule\"");
+  EXPECT_TRUE(diagnostics.has("S021")) << printed();
+  EXPECT_THAT(printed(), HasSubstr("velocity"));
+  (void)scene("v.csv", "type = \"cone\"\ndirection = \"size\"");
+  EXPECT_TRUE(diagnostics.has("S041")) << printed();
+  const Scene round = scene("v.csv", "type = \"cylinder\"\nends = \"round\"\ndirection = [0, 0, 1]\nlength = \"size\"\nradius = 0.2");
+  EXPECT_FALSE(diagnostics.has_errors()) << printed();
+  EXPECT_EQ(round.batches.at(0).type, "capsule");
 }
 
 struct Broken {

@@ -61,7 +61,7 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
   OwnRay own = ray_of(ray, p);
   Axis axis = axis_of(p.h);
   AxialRay r = axial(own, axis.u);
-  vec2 s = both(inside_round(r, p.radius, 0.0), between(r, -axis.half_length, axis.half_length));
+  vec2 s = both(inside_round(r, p.radius, 0.0, 0.0), between(r, -axis.half_length, axis.half_length));
   s = joined(s, inside_ball(own, r, axis.u, -axis.half_length, p.radius));
   s = joined(s, inside_ball(own, r, axis.u, axis.half_length, p.radius));
   bool met = s.x <= s.y;

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Types `cylinder` and `cone`: a round body between two discs around an axis. Record: (center relative to the chunk, radius of the
+// bounding ball), (h, radius at center - h), (radius at center + h, ends, -, -); the axis runs from center - h to center + h. ends 1:
+// the side alone, a surface with two faces. Formulas: method book, sections 3.2 (intersection) and 4.2 (bounds).
+// The including type.glsl says MAY_BE_OPEN.
+#include "particles/axial.glsl"
+
+#define CASTER_VEC4S 3
+const int record_vec4s = 3;
+#ifdef NEAR_EYE
+const int payload_vec4s = 4;
+#else
+const int payload_vec4s = 3;
+#endif
+
+struct Particle {
+  vec3 center; // view space
+  float bound;
+  vec3 h;      // own space, as all that follows
+  float radius, radius_end;
+  bool open;
+  vec3 rest;   // center - float32(center); 0 but for NEAR_EYE
+};
+
+Particle shaped(vec3 center, float bound, vec3 rest, vec4 first, vec4 second) {
+  return Particle(center, bound, first.xyz, first.w, second.x, MAY_BE_OPEN && second.y == 1.0, rest);
+}
+#ifdef NEAR_EYE
+Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[3]) {
+  return shaped(near[0].xyz, near[0].w, near[1].xyz, vec4(turned(at, record[1].xyz), scaled(at, record[1].w)), vec4(scaled(at, record[2].x), record[2].yzw));
+}
+Particle unpack(vec4 payload[payload_vec4s]) { return shaped(payload[0].xyz, payload[0].w, payload[3].xyz, payload[1], payload[2]); }
+#else
+Particle place(vec4 record[record_vec4s], Placement at) {
+  return shaped(placed_center(at, record[0].xyz), scaled(at, record[0].w), vec3(0.0), vec4(turned(at, record[1].xyz), scaled(at, record[1].w)),
+                vec4(scaled(at, record[2].x), record[2].yzw));
+}
+Particle unpack(vec4 payload[payload_vec4s]) { return shaped(payload[0].xyz, payload[0].w, vec3(0.0), payload[1], payload[2]); }
+#endif
+void pack(Particle p, out vec4 payload[payload_vec4s]) {
+  payload[0] = vec4(p.center, p.bound);
+  payload[1] = vec4(p.h, p.radius);
+  payload[2] = vec4(p.radius_end, p.open ? 1.0 : 0.0, 0.0, 0.0);
+#ifdef NEAR_EYE
+  payload[3] = vec4(p.rest, 0.0);
+#endif
+}
+
+bool drawable(Particle p) { return max(p.radius, p.radius_end) > 0.0 && length(p.h) > 0.0; }
+
+Proxy proxy(Particle p) {
+  vec3 h = from_own(p.h), u = axis_of(p.h).u;
+  float z_min = p.center.z - abs(h.z) - ball_depth(max(p.radius, p.radius_end));
+  return hull_proxy(united(disc_proxy(p.center - h, u, p.radius), disc_proxy(p.center + h, u, p.radius_end)), z_min, p.center, p.bound);
+}
+
+float middle_radius(Particle p) { return 0.5 * (p.radius + p.radius_end); }
+float slope_of(Particle p, Axis axis) { return (p.radius_end - p.radius) / (2.0 * axis.half_length); }
+
+bool intersect(Ray ray, Particle p, out Interval hit) {
+  OwnRay own = own_ray(ray, p.center, p.rest);
+  Axis axis = axis_of(p.h);
+  AxialRay r = axial(own, axis.u);
+  vec4 s = inside_frustum(r, middle_radius(p), slope_of(p, axis), 0.0, -axis.half_length, axis.half_length);
+  if (MAY_BE_OPEN) { // of the side's two points, those between the ends
+    bool met = s.x <= s.y, first = met && s.z == 0.0, last = met && s.w == 0.0;
+    vec4 open = vec4(first ? s.x : s.y, last ? s.y : s.x, 0.0, 0.0);
+    open = first || last ? open : vec4(beyond, -beyond, 0.0, 0.0);
+    s = p.open ? open : s;
+  }
+  bool met = s.x <= s.y;
+  hit = interval_of(own, met ? s.xy : vec2(0.0), s.zw);
+  return met;
+}
+
+vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) {
+  Axis axis = axis_of(p.h);
+  vec3 d = to_own(ray.direction);
+  vec3 n = frustum_normal(interval_point(ray, hit, exit), d, axis.u, slope_of(p, axis), (exit ? hit.ends.w : hit.ends.z) > 0.0, exit);
+  if (MAY_BE_OPEN) n = p.open && (dot(n, d) > 0.0) != exit ? -n : n; // both faces: turned to the ray
+  return normal_from_own(n);
+}
+
+bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
+  OwnRay own = own_ray(ray, p.center, p.rest);
+  Axis axis = axis_of(p.h);
+  return max(p.radius, p.radius_end) < radius && distance_to_axis(own, axial(own, axis.u), axis.u, -axis.half_length, axis.half_length) < radius;
+}
+Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return sampled_outline(intersect(ray, p, again)); }
+
+#ifdef TILES
+Proxy tile_proxy(Particle p) {
+  vec3 u = axis_of(p.h).u;
+  return united(disc_proxy(p.center - p.h, u, p.radius), disc_proxy(p.center + p.h, u, p.radius_end));
+}
+
+// Rays start in the plane of the center's depth, as those of the capsule do.
+struct TileTest { vec4 a, b, c; }; // (m, z, slope), (axis, half length), (radius in the middle, open, alive, -)
+
+TileTest tile_test(Particle p, bool alive) {
+  Axis axis = axis_of(p.h);
+  vec2 m = orthographic ? p.center.xy : p.center.xy / p.center.z;
+  float slope = abs(p.radius_end - p.radius) > 2e-6 * p.radius ? slope_of(p, axis) : 0.0; // radii that are all but equal
+  return TileTest(vec4(m, p.center.z, slope), vec4(axis.u, axis.half_length), vec4(middle_radius(p), p.open ? 1.0 : 0.0, alive ? 1.0 : 0.0, 0.0));
+}
+
+bool tile_nearer(TileTest s, float x, float y, inout float key) {
+  vec2 d = orthographic ? vec2(0.0) : vec2(x, y);
+  TileRay r = tile_ray((orthographic ? 1.0 : s.a.z) * (vec2(x, y) - s.a.xy), d, s.b.xyz);
+  vec2 side = tile_round(r, s.c.x, s.a.w, 0.0), slab = tile_between(r, -s.b.w, s.b.w), both_ = both(side, slab);
+  bool met = both_.x <= both_.y && s.c.z > 0.0;
+  float entry = both_.x;
+  if (MAY_BE_OPEN) {
+    bool first = side.x >= slab.x, last = side.y <= slab.y;
+    met = met && (s.c.y == 0.0 || first || last);
+    entry = s.c.y == 0.0 || first ? entry : side.y;
+  }
+  entry = (s.a.z + entry) * r.d_d;
+  bool nearer = met && entry < key;
+  key = nearer ? entry : key;
+  return nearer;
+}
+
+vec3 normal_at(Ray ray, Particle p, float t) {
+  Interval hit;
+  intersect(ray, p, hit);
+  return outward_normal(ray, p, hit, false);
+}
+#endif
