@@ -13,8 +13,9 @@ namespace mote::data {
 
 class CifAtoms {
 public:
-  // `items`: what the columns of the loop are called; Cartn_x, Cartn_y and Cartn_z are among them.
-  CifAtoms(const std::string& file, const std::vector<std::string_view>& items);
+  // `items`: what the columns of the loop are called; Cartn_x, Cartn_y and Cartn_z are among them. `by_id`: add_anisou()
+  // will be called with rows.
+  CifAtoms(const std::string& file, const std::vector<std::string_view>& items, bool by_id);
   [[nodiscard]] std::vector<CifToken>& row() { return row_; }
   void add();
   // Rows of _atom_site_anisotrop belong to the atoms with their id; false when some belong to none.
@@ -55,6 +56,7 @@ private:
   [[nodiscard]] std::int64_t integer(Item item, std::int64_t otherwise) const;
 
   const std::string& file_;
+  bool by_id_{};
   std::array<int, wanted.size()> at_{};
   std::vector<CifToken> row_{};
   AtomColumns columns_{};

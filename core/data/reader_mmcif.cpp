@@ -249,7 +249,7 @@ private:
 };
 
 Frame MmcifSource::read_model(const Model& model) {
-  CifAtoms atoms(bytes_->name(), atom_items_);
+  CifAtoms atoms(bytes_->name(), atom_items_, tables_["atom_site_anisotrop"].rows() > 0);
   for (const Stretch& stretch : model.stretches) {
     CifScanner scanner = stretch.begin;
     for (std::uint64_t row = 0; row < stretch.rows; ++row) {

@@ -97,7 +97,7 @@ std::unique_ptr<Source> open_bytes(std::shared_ptr<Bytes> bytes, std::string_vie
   const std::string_view first = probe.head.substr(0, std::min(probe.head.find('\n'), probe.head.size()));
   fail(Exit::BadInput, code::unknown_format, {bytes->name()},
        "no reader recognizes the content, which begins with " + shown(trim(first)),
-       {"formats: " + list_of(known)});
+       {"formats: " + list_of(known), "numbers without a heading are described by a small TOML file with mote_raw = 1 (docs/formats.md)"});
 }
 
 std::unique_ptr<Source> open(const std::filesystem::path& file) {

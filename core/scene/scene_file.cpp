@@ -140,7 +140,14 @@ Node vec_node(const glm::dvec3& v) {
 
 } // namespace
 
-bool is_scene_path(const std::filesystem::path& path) { return path.extension() == ".toml"; }
+bool is_scene_path(const std::filesystem::path& path) {
+  if (path.extension() != ".toml") return false;
+  std::string head(4096, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  return !head.starts_with("mote_raw") && head.find("\nmote_raw") == std::string::npos;
+}
 
 SceneDesc parse_scene(std::string_view text, const std::string& file, const std::filesystem::path& folder,
                       std::span<const std::string> overrides, Diagnostics& diagnostics) {

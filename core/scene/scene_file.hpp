@@ -164,7 +164,7 @@ struct SceneDesc {
 };
 
 // Does the file look like a scene (TOML whose top has data, camera, ...) rather than a particle file? Decides by
-// the ending ".toml".
+// the ending ".toml", unless it describes raw numbers (mote_raw = 1).
 bool is_scene_path(const std::filesystem::path& path);
 
 // Reads and checks a scene file, with overrides ("path=value") applied. Throws Failure when the file cannot be read,
