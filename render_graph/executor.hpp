@@ -65,6 +65,8 @@ public:
   // One per pass in plan order, of a frame up to three old; with `wait` of the last one.
   [[nodiscard]] const std::vector<PassTiming>& timings(bool wait = false) { return profiler_.timings(wait); }
   void set_stage_times(bool on) { profiler_.set_stages(on); } // PassTiming::stages, from the next frame on
+  // PassTiming::counts, likewise; false: the device does not count.
+  bool set_counts(bool on) { return profiler_.set_counts(on), profiler_.counts() == on; }
 
 private:
   class Context;

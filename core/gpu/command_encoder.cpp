@@ -170,6 +170,23 @@ void CommandEncoder::write_timestamp(const QuerySet& set, std::uint32_t index) {
   });
 }
 
+void CommandEncoder::begin_pipeline_statistics(const QuerySet& set, std::uint32_t index) {
+  impl_->call("begin_pipeline_statistics", [&] {
+    const auto& queries = vk::require(set, "QuerySet", *impl_->core);
+    check_query("the query", queries->label, queries->type, queries->count, QueryType::PipelineStatistics, index);
+    if (impl_->statistics_set) invalid("V-QRY-004", "{} counts pipeline statistics already.", named("CommandEncoder", impl_->label));
+    impl_->recording->keep(queries);
+    impl_->statistics_set = queries;
+    impl_->first_statistics = impl_->next_statistics = index;
+  });
+}
+void CommandEncoder::end_pipeline_statistics() {
+  impl_->call("end_pipeline_statistics", [&] {
+    if (!impl_->statistics_set) invalid("V-QRY-004", "{} does not count pipeline statistics.", named("CommandEncoder", impl_->label));
+    impl_->statistics_set.reset();
+  });
+}
+
 void CommandEncoder::resolve_query_set(const QuerySet& set, std::uint32_t first, std::uint32_t count, const Buffer& dst, std::uint64_t offset) {
   impl_->call("resolve_query_set", [&] {
     const auto& queries = vk::require(set, "QuerySet", *impl_->core);
@@ -210,6 +227,7 @@ CommandBuffer CommandEncoder::finish() {
     if (impl_->debug_groups > 0) {
       invalid("V-ENC-003", "{} is finished with {} open debug groups.", named("CommandEncoder", impl_->label), impl_->debug_groups);
     }
+    if (impl_->statistics_set) invalid("V-QRY-004", "{} is finished while it counts pipeline statistics.", named("CommandEncoder", impl_->label));
     commands->recording = std::move(impl_->recording);
     commands->valid = true;
   });

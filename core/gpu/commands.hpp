@@ -25,7 +25,7 @@ struct Timestamp { QuerySet::Impl* set{}; std::uint32_t index{}; };
 struct BeginStatistics { QuerySet::Impl* set{}; std::uint32_t index{}; };
 struct EndStatistics { QuerySet::Impl* set{}; std::uint32_t index{}; };
 struct ResolveQueries { QuerySet::Impl* set{}; std::uint32_t first{}, count{}, scope{}; VkBuffer dst{}; std::uint64_t offset{}; };
-struct SetPipeline { VkPipeline pipeline{}; VkPipelineBindPoint point{}; };
+struct SetPipeline { VkPipeline pipeline{}; VkPipelineBindPoint point{}; std::uint32_t interpolated{}, flat{}; };
 struct SetGroup { VkPipelineLayout layout{}; VkDescriptorSet set{}; std::uint32_t index{}; VkPipelineBindPoint point{}; };
 struct PushConstants { VkPipelineLayout layout{}; std::uint32_t first_byte{}, size{}; };
 struct SetVertexBuffer { VkBuffer buffer{}; std::uint64_t offset{}; std::uint32_t slot{}; };

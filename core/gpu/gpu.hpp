@@ -141,6 +141,9 @@ public:
   void copy_texture_to_texture(const TexelCopyTexture& src, const TexelCopyTexture& dst, Extent3d size);
   void clear_buffer(const Buffer& buffer, std::uint64_t offset = 0, std::uint64_t size = 0, std::uint32_t value = 0);
   void write_timestamp(const QuerySet& set, std::uint32_t index);
+  // Each render pass until the end takes one query of the set, from `index` on; the set's end ends it, too (observe.hpp).
+  void begin_pipeline_statistics(const QuerySet& set, std::uint32_t index);
+  void end_pipeline_statistics();
   void resolve_query_set(const QuerySet& set, std::uint32_t first, std::uint32_t count, const Buffer& dst, std::uint64_t offset); // 64-bit values
   void push_debug_group(std::string_view label);
   void pop_debug_group();

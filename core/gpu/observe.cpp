@@ -36,6 +36,25 @@ std::vector<Observed> observe(const CommandEncoder& encoder, std::size_t first_s
   return seen;
 }
 
+std::uint32_t counted_passes(const CommandEncoder& encoder) {
+  return encoder.impl() ? encoder.impl()->next_statistics - encoder.impl()->first_statistics : 0;
+}
+
+std::size_t command_count(const CommandEncoder& encoder) {
+  const auto& impl = encoder.impl();
+  return impl && impl->recording ? impl->recording->commands.size() : 0;
+}
+
+FragmentInputs fragment_inputs(const CommandEncoder& encoder, std::size_t first) {
+  FragmentInputs most;
+  for (std::size_t i = first; i < command_count(encoder); ++i)
+    if (const auto* set = std::get_if<cmd::SetPipeline>(&encoder.impl()->recording->commands[i])) {
+      most.interpolated = std::max(most.interpolated, set->interpolated);
+      most.flat = std::max(most.flat, set->flat);
+    }
+  return most;
+}
+
 std::uint64_t native_id(const Buffer& buffer) { return buffer ? buffer.impl()->state.native : 0; }
 std::uint64_t native_id(const Texture& texture) { return texture ? texture.impl()->state.native : 0; }
 

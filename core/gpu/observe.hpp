@@ -30,6 +30,16 @@ struct Observed {
 // One entry a resource, in the order of first use, over the scopes from `first_scope` on.
 [[nodiscard]] std::vector<Observed> observe(const CommandEncoder& encoder, std::size_t first_scope = 0);
 
+// What each fragment of recorded draws gets from the rasterizer, in components: the most of any pipeline that was
+// set from command `first` on (as command_count() gave it).
+struct FragmentInputs {
+  std::uint32_t interpolated{}, flat{};
+};
+// Queries that render passes have taken since begin_pipeline_statistics().
+[[nodiscard]] std::uint32_t counted_passes(const CommandEncoder& encoder);
+[[nodiscard]] std::size_t command_count(const CommandEncoder& encoder);
+[[nodiscard]] FragmentInputs fragment_inputs(const CommandEncoder& encoder, std::size_t first);
+
 // Equal for handles of the same object, and for no two living ones of a type. 0: an invalid handle.
 [[nodiscard]] std::uint64_t native_id(const Buffer& buffer);
 [[nodiscard]] std::uint64_t native_id(const Texture& texture);

@@ -173,6 +173,8 @@ void init_render_pipeline(RenderPipeline::Impl& pipeline, const RenderPipelineDe
   for (const StageInfo* s : {&vertex, geometry ? &*geometry : nullptr, fragment ? &*fragment : nullptr}) {
     if (s != nullptr) pipeline.facts.push_constants_used = std::max(pipeline.facts.push_constants_used, s->facts.entry->push_constant_size);
   }
+  if (fragment)
+    for (const ReflectedVariable& input : fragment->facts.entry->inputs) (input.flat ? pipeline.facts.flat : pipeline.facts.interpolated) += input.components;
   std::vector<VkPipelineShaderStageCreateInfo> stages{vertex.info(ShaderStage::Vertex)};
   if (geometry) stages.push_back(geometry->info(ShaderStage::Geometry));
   if (fragment) stages.push_back(fragment->info(ShaderStage::Fragment));

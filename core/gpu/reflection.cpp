@@ -144,7 +144,8 @@ private:
       std::uint32_t slots = std::max(1u, type.columns);
       for (std::size_t i = 0; i < dims; ++i) slots *= std::max(1u, outer.array[i]);
       const std::uint32_t location = compiler_.get_decoration(r.id, spv::DecorationLocation);
-      for (std::uint32_t i = 0; i < slots; ++i) result.push_back({location + i, type.vecsize, kind_of(type), r.name});
+      const bool flat = compiler_.has_decoration(r.id, spv::DecorationFlat);
+      for (std::uint32_t i = 0; i < slots; ++i) result.push_back({location + i, type.vecsize, kind_of(type), r.name, flat});
     }
     std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.location < b.location; });
     return result;

@@ -32,6 +32,7 @@ struct ReflectedVariable { // input or output of a stage
   std::uint32_t components{}; // of one location, 1..4
   FormatKind kind{};          // Float, Uint or Sint
   std::string name{};
+  bool flat{};                // not interpolated
 };
 
 struct ReflectedGeometry {

@@ -95,6 +95,13 @@ void RenderPass::Impl::begin(const RenderPassDescriptor& d) {
     list.keep(views.depth);
   }
   list.commands.push_back(cmd::BeginRender{index});
+  // Within the pass, where the query belongs to its draws alone.
+  const auto& set = encoder->statistics_set;
+  counted = set && encoder->next_statistics < set->count;
+  if (!counted) return;
+  const cmd::BeginStatistics query{set.get(), encoder->next_statistics};
+  list.passes[index].statistics.push_back(query);
+  list.commands.push_back(query);
 }
 
 void RenderPass::Impl::end() {
@@ -102,6 +109,7 @@ void RenderPass::Impl::end() {
   call("RenderPass", "end()", [&] {
     if (statistics) invalid("V-QRY-004", "{} ends with an open pipeline statistics query.", named("RenderPass", label));
     Recording& list = recording();
+    if (counted) list.commands.push_back(cmd::EndStatistics{encoder->statistics_set.get(), encoder->next_statistics++});
     list.passes[index].scope = list.scopes.end();
     list.commands.push_back(cmd::EndRender{index});
     record_timestamp(timestamps ? timestamps->end : std::nullopt);
@@ -135,7 +143,7 @@ void RenderPass::set_pipeline(const RenderPipeline& pipeline) {
     const auto& found = vk::require(pipeline, "RenderPipeline", *impl_->core);
     check_pipeline_in_pass(impl_->facts, found->facts);
     impl_->pipeline = found;
-    impl_->recording().commands.push_back(cmd::SetPipeline{found->handle, VK_PIPELINE_BIND_POINT_GRAPHICS});
+    impl_->recording().commands.push_back(cmd::SetPipeline{found->handle, VK_PIPELINE_BIND_POINT_GRAPHICS, found->facts.interpolated, found->facts.flat});
     impl_->recording().keep(found);
     impl_->ready = false;
   });
@@ -262,6 +270,7 @@ void RenderPass::begin_pipeline_statistics(const QuerySet& set, std::uint32_t in
     const auto& queries = vk::require(set, "QuerySet", *impl_->core);
     check_query("the query", queries->label, queries->type, queries->count, QueryType::PipelineStatistics, index);
     if (impl_->statistics) invalid("V-QRY-004", "{} has an open pipeline statistics query already.", named("RenderPass", impl_->label));
+    if (impl_->counted) invalid("V-QRY-004", "{} counts pipeline statistics of all its passes already.", named("CommandEncoder", impl_->encoder->label));
     const cmd::BeginStatistics begin{queries.get(), index};
     impl_->recording().passes[impl_->index].statistics.push_back(begin);
     impl_->recording().commands.push_back(begin);

@@ -55,6 +55,7 @@ struct PipelineFacts {
   std::vector<std::uint64_t> vertex_strides{};
   std::vector<VertexStepMode> vertex_steps{};
   std::uint32_t push_constants_used{}; // bytes
+  std::uint32_t interpolated{}, flat{}; // components that a fragment gets from the rasterizer
 };
 
 void check_feature(const DeviceFacts& device, Feature feature, std::string_view what); // V-FEAT-001

@@ -120,6 +120,8 @@ struct CommandEncoder::Impl : vk::Object {
   bool in_pass{};
   bool failed{};                          // a call failed: finish() gives an invalid CommandBuffer
   std::uint32_t debug_groups{};
+  std::shared_ptr<QuerySet::Impl> statistics_set{}; // that render passes count into, or null
+  std::uint32_t first_statistics{}, next_statistics{};
   void require_open() const; // V-ENC-001, V-ENC-002
 
   // Runs one recording call. A fault is reported and fails the encoder; after that calls do nothing.
@@ -203,6 +205,7 @@ struct RenderPass::Impl : PassBase {
   std::uint32_t index_size{}; // bytes of one index; 0: none set
   std::shared_ptr<QuerySet::Impl> statistics_set{};
   std::optional<std::uint32_t> statistics{};
+  bool counted{}; // by a query of the encoder's set
 
   void begin(const RenderPassDescriptor& descriptor);
   void prepare_draw();
