@@ -19,6 +19,7 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 18> p
     {"P007", "error: a number of samples that the pattern cannot make"},
     {"P010", "error: the shader of a pass from a file, or its pass.toml, cannot be read"},
     {"P011", "error: a pass.toml says something that it cannot"},
+    {"P012", "error: a pass.toml was changed in a way that only counts when the graph is read again"},
     {"P013", "error: the shader of a pass from a file uses what its pass.toml does not declare"},
     {"P014", "error: what is connected to a pass from a file has other texels than its pass.toml declares"},
     {"P015", "error: a shadow map is for a light that the scene does not have"},

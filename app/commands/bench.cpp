@@ -24,13 +24,14 @@ struct BenchArguments {
   DeviceArguments device{};
   int frames{20};
   double turn{degrees_per_frame};
-  bool json{}, stages{}, cut{};
+  bool json{}, stages{}, cut{}, stats{};
 };
 
 struct PassTimes {
   std::string name{};
   std::vector<double> gpu{}, cpu{};
   std::vector<std::pair<std::string, std::vector<double>>> stages{}; // by name, in order of first appearance
+  std::optional<rg::PassCounts> counts{};                             // of the last frame
 };
 
 struct Measured {
@@ -58,6 +59,7 @@ Measured measure(FrameRenderer& renderer, const Job& job, const BenchArguments& 
     for (std::size_t i = 0; i < timings.size(); ++i) {
       out.passes[i].name = timings[i].name;
       out.passes[i].cpu.push_back(timings[i].cpu_ms);
+      out.passes[i].counts = timings[i].counts;
       if (timings[i].gpu_ms) out.passes[i].gpu.push_back(*timings[i].gpu_ms);
       for (const rg::StageTiming& stage : timings[i].stages) {
         auto& stages = out.passes[i].stages;
@@ -88,6 +90,8 @@ void print_json(const Measured& m, const std::string& device, std::string_view e
     row["gpu_ms"] = pass.gpu.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(rounded(median(pass.gpu)));
     row["cpu_ms"] = rounded(median(pass.cpu));
     for (const auto& [name, times] : pass.stages) row["stages"][name] = rounded(median(times));
+    if (pass.counts)
+      for (const auto& [name, value] : named_counts(*pass.counts)) row["counts"][std::string(name)] = value;
     json["passes"].push_back(std::move(row));
   }
   fmt::print("{}\n", json.dump(2));
@@ -101,6 +105,7 @@ void print_text(const Measured& m, const std::string& device, std::string_view e
   for (const PassTimes& pass : m.passes) {
     fmt::print("  {:<16} device {:>8.2f} ms   recording {:>7.2f} ms\n", pass.name, median(pass.gpu), median(pass.cpu));
     for (const auto& [name, times] : pass.stages) fmt::print("    {:<14} device {:>8.2f} ms\n", name, median(times));
+    if (pass.counts) fmt::print("{}", counts_text(*pass.counts, "    "));
   }
 }
 
@@ -117,6 +122,7 @@ void run(const BenchArguments& a) {
   DrawingDevice device(a.device.device);
   FrameRenderer renderer(device, std::move(*graph), config, a.device.display, expansion, warm_up + a.frames);
   renderer.set_stage_times(a.stages);
+  if (a.stats) renderer.count_work();
   renderer.set_scene(job.scene);
   const Measured measured = measure(renderer, job, a);
   print(renderer.report());
@@ -135,6 +141,7 @@ void add_bench(CLI::App& app, Exit& exit) {
   command->add_option("--turn", a->turn, "degrees that the camera turns about the vertical a frame; 0.5 if not given")->type_name("DEGREES");
   command->add_flag("--cut", a->cut, "every frame is a camera cut: a quarter turn more");
   command->add_flag("--stages", a->stages, "the parts of passes, too");
+  command->add_flag("--stats", a->stats, "vertices, primitives, fragments and the components they get, of each pass in the last frame");
   command->add_flag("--json", a->json, "as JSON");
   command->callback([a, &exit] {
     run(*a);

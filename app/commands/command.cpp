@@ -75,6 +75,21 @@ JobRequest job_request(const SceneArguments& a) {
   return request;
 }
 
+std::vector<std::pair<std::string_view, std::uint64_t>> named_counts(const rg::PassCounts& c) {
+  return {{"vertices", c.vertices}, {"primitives", c.primitives}, {"vertex_invocations", c.vertex_invocations},
+          {"geometry_invocations", c.geometry_invocations}, {"geometry_primitives", c.geometry_primitives},
+          {"clipping_invocations", c.clipping_invocations}, {"clipping_primitives", c.clipping_primitives},
+          {"fragment_invocations", c.fragment_invocations}, {"interpolated_components", c.interpolated_components()}, {"flat_components", c.flat_components()}};
+}
+
+std::string counts_text(const rg::PassCounts& c, std::string_view indent) {
+  if (c.vertices == 0) return fmt::format("{}nothing rasterized: kernels are not counted\n", indent);
+  std::string text = fmt::format("{}vertices {}, primitives {}, rasterized {}, fragments {}\n", indent, c.vertices, c.primitives, c.clipping_primitives, c.fragment_invocations);
+  if (c.fragment_invocations > 0)
+    text += fmt::format("{}components interpolated {} ({} a fragment), flat {} ({} a fragment)\n", indent, c.interpolated_components(), c.interpolated, c.flat_components(), c.flat);
+  return text;
+}
+
 void print(const Diagnostics& diagnostics) { std::fputs(to_string(diagnostics).c_str(), stderr); }
 
 void print_and_stop_on_errors(const Diagnostics& diagnostics) {

@@ -32,6 +32,10 @@ Size2d parse_size(std::string_view text);                      // "1280x720"; th
 passes::Expansion parse_expansion(const std::string& word);    // throws Failure A001
 std::pair<std::string, std::string> split_request(const std::string& option, const std::string& request); // NAME=FILE; A004
 
+// What a pass made the device do (--stats): names and numbers, and the same in three lines of text.
+std::vector<std::pair<std::string_view, std::uint64_t>> named_counts(const rg::PassCounts& counts);
+std::string counts_text(const rg::PassCounts& counts, std::string_view indent);
+
 // To stderr, all of them.
 void print(const Diagnostics& diagnostics);
 // Prints; throws Stop when there are errors.

@@ -9,6 +9,7 @@
 #include "app/library/provenance.hpp"
 #include "app/library/reference_picture.hpp"
 #include "app/library/sequence.hpp"
+#include "app/library/smoothing.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -24,12 +25,13 @@ struct RenderArguments {
   DeviceArguments device{};
   std::string output{};
   std::vector<std::string> aovs{}, dumps{};
-  bool reference{}, transparent{}, skip_existing{};
+  bool reference{}, transparent{}, skip_existing{}, stats{};
   std::string frames{}, shard{};
   std::optional<std::int64_t> frame{};
   double rate{25.0}; // frames a second of a movie
   int bits{8};
   std::uint32_t panel{};
+  Smoothing smoothing{};
 };
 
 // What goes where.
@@ -128,6 +130,11 @@ std::string command_of(const RenderArguments& a, const Job& job) {
   option("--display", a.device.display.display);
   option("--view", a.device.display.view);
   if (a.device.display.exact) add("--exact");
+  if (a.smoothing.samples) option("--samples", fmt::format("{}", a.smoothing.samples));
+  if (a.smoothing.edges != "auto") option("--edges", a.smoothing.edges);
+  // A series is judged by its first frame; this one alone might be drawn otherwise.
+  const bool smooth = !job.graph.opaque_settings.empty();
+  if (!a.smoothing.asked() && !a.reference && smooth && !takes_edges(job.graph, parse_expansion(a.scene.expansion), job.scene.particle_count())) option("--edges", "analytic");
   if (a.transparent) add("--transparent");
   if (a.reference) add("--reference");
   if (a.bits != 8) option("--bits", fmt::format("{}", a.bits));
@@ -198,6 +205,7 @@ public:
                                                   static_cast<double>(std::max<std::size_t>(1, job_.frames.size())));
     }
     renderer_->set_scene(job_.scene);
+    if (a_.stats) renderer_->count_work();
     const std::size_t panels = panel_count(*renderer_, job_.view(), a_.panel);
     if (panels > 1 && !a_.dumps.empty())
       fail(Exit::Usage, code::panel, {"--dump"}, fmt::format("the picture is drawn in {} panels, and a dump holds one frame", panels),
@@ -205,6 +213,7 @@ public:
     DrawnPicture picture = draw_picture(*renderer_, job_.view(), a_.panel);
     const auto& said = renderer_->report().list(); // of all pictures so far
     for (; reported_ < said.size(); ++reported_) fmt::print(stderr, "{}\n", to_string(said[reported_]));
+    if (a_.stats) print_counts(panels);
     return annotated(std::move(picture));
   }
   // How far a baked view transform is from the exact one is measured when it is made; say so, once.
@@ -222,6 +231,11 @@ public:
   }
 
 private:
+  void print_counts(std::size_t panels) {
+    if (panels > 1) fmt::print(stderr, "of the last of {} panels:\n", panels);
+    for (const rg::PassTiming& pass : renderer_->timings())
+      if (pass.counts) fmt::print(stderr, "{}\n{}", pass.name, counts_text(*pass.counts, "  "));
+  }
   DrawnPicture annotated(DrawnPicture picture) {
     if (job_.scene.annotations.empty()) return picture;
     if (!display_) display_.emplace(display_of(*config_, a_.device.display, shown_));
@@ -284,6 +298,19 @@ void draw_many(const RenderArguments& a, const Outputs& outputs, Job& job, Drawi
   movie->finish();
 }
 
+// Analytic edges where they cost little. A series is judged by its first frame, whoever
+// draws which of its frames.
+void smooth(const RenderArguments& a, Job& job) {
+  const passes::Expansion expansion = parse_expansion(a.scene.expansion);
+  bool automatic = !a.smoothing.asked() && a.panel == 0 && std::max(job.size.width, job.size.height) <= default_panel && takes_edges(job.graph, expansion, 0);
+  if (automatic && !job.frames.empty()) {
+    Diagnostics said_later;
+    load_frame(job, job.frames.front(), said_later);
+  }
+  automatic = automatic && takes_edges(job.graph, expansion, job.scene.particle_count());
+  request_smoothing(job.graph, a.smoothing, automatic);
+}
+
 void run(const RenderArguments& a) {
   const Outputs outputs = parse_outputs(a);
   if (a.panel != 0 && a.panel < 16)
@@ -299,6 +326,7 @@ void run(const RenderArguments& a) {
   Drawing drawing(a, job);
   Diagnostics diagnostics;
   job = load_job(request, diagnostics);
+  if (!a.reference && !diagnostics.has_errors()) smooth(a, job);
   if (!a.reference && !diagnostics.has_errors())
     if (std::optional<ReadyGraph> graph = ready_graph(job.graph, diagnostics)) {
       warn_of_graph(job, *graph, diagnostics);
@@ -327,6 +355,10 @@ void add_render(CLI::App& app, Exit& exit) {
   command->add_option("--rate", a->rate, "frames a second of a movie, 25 if not given")->check(CLI::Range(0.01, 1000.0))->type_name("N");
   command->add_flag("--reference", a->reference, "draw with the double-precision reference instead of a device");
   command->add_flag("--transparent", a->transparent, "a background of alpha 0");
+  command->add_option("--samples", a->smoothing.samples, "samples a pixel, averaged in linear light: 1, 4, 9, 16, ...")->check(CLI::Range(1, 1024))->type_name("N");
+  command->add_option("--edges", a->smoothing.edges, "analytic: outlines from closed forms; sampled: as the samples see them; auto: analytic where that is cheap")
+      ->check(CLI::IsMember({"auto", "analytic", "sampled"}))->excludes("--samples")->type_name("WORD");
+  command->add_flag("--stats", a->stats, "on stderr: vertices, primitives, fragments and the components they get, of each pass");
   command->add_option("--panel", a->panel, "draw in panels of at most N pixels a side (4096 where nothing is said), without seams")->type_name("N");
   command->add_option("--bits", a->bits, "bits per channel of a PNG: 8 or 16")->check(CLI::IsMember({8, 16}))->type_name("N");
   command->callback([a, &exit] {

@@ -22,7 +22,7 @@ DrawingDevice::DrawingDevice(const DeviceOptions& options) : errors_(std::make_s
   adapter_ = instance_.request_adapter({.name = options.name}, error);
   if (!adapter_) give_up();
   const gpu::Feature wanted = gpu::Feature::GeometryShader | gpu::Feature::TimestampQuery | gpu::Feature::Subgroups | gpu::Feature::ShaderInt64 |
-                              gpu::Feature::ShaderFloat64; // the last for charts only
+                              gpu::Feature::PipelineStatistics | gpu::Feature::ShaderFloat64; // the last for charts only
   const std::string cache = cache_directory();
   device_ = adapter_.request_device({.label = "mote", .required_features = wanted & adapter_.features(), .cache_directory = cache}, error);
   if (!device_) give_up();

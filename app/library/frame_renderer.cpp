@@ -23,6 +23,7 @@ FrameRenderer::FrameRenderer(DrawingDevice& device, ReadyGraph graph, const Colo
   options_.frames = frames;
   options_.costs = &costs_;
   options_.chosen = [this](const passes::ExpansionReport& report) { choices_.push_back(report); };
+  reports_.report = [this](const Diagnostic& d) { report_.add(d); }; // a broken version of a shader is reported once, by its pass
   display_.config = &config;
   display_.display = display.display;
   display_.view = display.view;
@@ -30,6 +31,10 @@ FrameRenderer::FrameRenderer(DrawingDevice& device, ReadyGraph graph, const Colo
   display_.exact = display.exact;
   display_.cache_directory = cache_directory();
   display_.describe = [text = display_text_](const std::string& described) { *text = described; };
+}
+
+void FrameRenderer::count_work() {
+  if (!executor_.set_counts(true)) report_.warning(code::no_counts, {"--stats"}, fmt::format("{} does not count what pipelines do", device_.info().name));
 }
 
 void FrameRenderer::set_scene(const Scene& scene) {
@@ -45,7 +50,7 @@ gpu::Submission FrameRenderer::draw(const View& view) {
   frame.set(&view_);
   frame.set(&options_);
   frame.set(&display_);
-  if (reports_.report) frame.set(&reports_);
+  frame.set(&reports_);
   frame.set(static_cast<const passes::ParticleStore*>(store_.get()));
   choices_.clear();
   const gpu::Submission submission = executor_.execute(frame, {view.size.width, view.size.height});

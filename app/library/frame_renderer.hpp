@@ -59,6 +59,7 @@ public:
   [[nodiscard]] const rg::Plan& plan() const { return executor_.plan(); }
   [[nodiscard]] const std::vector<rg::PassTiming>& timings(bool wait = true) { return executor_.timings(wait); }
   void set_stage_times(bool on) { executor_.set_stage_times(on); }
+  void count_work(); // PassTiming::counts from the next frame on; a device that cannot gives the warning A024
   // "sRGB / Un-tone-mapped", once a frame was drawn.
   [[nodiscard]] const std::string& display_text() const { return *display_text_; }
   // The one that the last frame was drawn with; before it, the one that was asked for.
@@ -81,8 +82,8 @@ private:
   std::vector<passes::ExpansionReport> choices_{};
   passes::FrameOptions options_{};
   passes::DisplaySettings display_{};
-  std::shared_ptr<std::string> display_text_ = std::make_shared<std::string>();
   passes::PassReports reports_{};
+  std::shared_ptr<std::string> display_text_ = std::make_shared<std::string>();
   std::shared_ptr<passes::ParticleStore> store_;
   rg::Executor executor_;
   const Scene* scene_{};

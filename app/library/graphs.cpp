@@ -92,6 +92,16 @@ void check_settings(const GraphRequest& request, const rg::GraphDesc& graph, Dia
   }
 }
 
+void set_opaque_passes(rg::GraphDesc& graph, const GraphRequest& request, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < graph.passes.size(); ++i) {
+    const rg::PassDesc& pass = graph.passes[i];
+    if (pass.kind.text != "opaque_impostors") continue;
+    const bool says = rg::find(pass.params, "samples") || rg::find(pass.params, "edges") || rg::find(pass.params, "blend");
+    if (says && request.opaque_settings_yield) continue;
+    for (const std::string& setting : request.opaque_settings) rg::apply_setting(graph, graph.passes[i].name.text + "." + setting, diagnostics);
+  }
+}
+
 } // namespace
 
 const rg::Registry& registry() {
@@ -142,9 +152,12 @@ std::optional<ReadyGraph> ready_graph(const GraphRequest& request, Diagnostics& 
   check_settings(request, graph, found);
   if (!found.has_errors())
     for (const std::string& setting : request.settings) rg::apply_setting(graph, setting, found);
+  set_opaque_passes(graph, request, found);
   if (request.deep) deepen_output(graph);
 
   ReadyGraph ready;
+  for (const rg::PassDesc& pass : graph.passes)
+    if (pass.kind.text == "opaque_impostors" && rg::find(pass.params, "blend")) ready.blending.insert(pass.name.text);
   ready.output = graph.output.text;
   read_display(graph, ready.shown);
   rg::CompileOptions options;

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,6 +27,8 @@ struct GraphRequest {
   SourceLoc loc{};                          // where that stands
   std::filesystem::path folder{};           // that a relative path is relative to
   std::vector<std::string> settings{};      // "pass.parameter=value"
+  std::vector<std::string> opaque_settings{}; // "parameter=value" for every pass of kind opaque_impostors
+  bool opaque_settings_yield{};             // to passes that say something of samples, edges or blend themselves
   std::vector<Aov> aovs{};
   bool every_aov{};                         // whatever AOVs the graph makes
   std::vector<rg::LocatedString> dumps{};   // further sources
@@ -47,6 +50,7 @@ struct ReadyGraph {
   std::string linear{}; // source of the scene-linear picture; empty if not asked for
   std::map<Aov, std::string> aovs{};
   PassDisplay shown{};
+  std::set<std::string> blending{}; // passes of kind opaque_impostors that draw transparent particles, too
 };
 
 std::vector<std::string> shipped_graphs();

@@ -139,7 +139,7 @@ Job load_described(SceneDesc desc, const JobRequest& request, Diagnostics& diagn
 }
 
 void warn_of_graph(const Job& job, const ReadyGraph& graph, Diagnostics& diagnostics) {
-  const auto draws_them = [](const rg::PlannedPass& pass) { return pass.kind == "sorted_glyphs"; };
+  const auto draws_them = [&](const rg::PlannedPass& pass) { return pass.kind == "sorted_glyphs" || graph.blending.contains(pass.name); };
   if (std::any_of(graph.plan.passes.begin(), graph.plan.passes.end(), draws_them) || !is_transparent(job)) return;
   diagnostics.warning(code::alpha_ignored, job.graph.loc, fmt::format("the graph '{}' has no pass for transparent particles: they are left out", job.graph.graph),
                       {"a pass of kind sorted_glyphs draws them; the shipped graph 'transparent' has one"});

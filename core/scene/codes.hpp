@@ -51,10 +51,10 @@ inline constexpr std::string_view range_sampled = "S039";
 inline constexpr std::string_view alpha_range = "S040";
 inline constexpr std::string_view not_a_vector = "S041";
 inline constexpr std::string_view no_shape = "S042";
+inline constexpr std::string_view no_bonds = "S043";
 inline constexpr std::string_view wrong_components = "S060";
 inline constexpr std::string_view order_unknown = "S061";
 inline constexpr std::string_view bad_orientation = "S062";
-inline constexpr std::string_view no_bonds = "S043";
 } // namespace code
 
 struct SceneCode {
@@ -103,10 +103,10 @@ inline constexpr std::array<SceneCode, 46> scene_codes{{
     {code::alpha_range, "warning: opacities outside 0 to 1 are cut"},
     {code::not_a_vector, "error: a direction or an end is asked of an attribute that is no vector"},
     {code::no_shape, "warning: particles without a length, a direction or a measure that could be drawn are left out"},
+    {code::no_bonds, "error: a style draws bonds, and the file has neither bonds nor elements to find them by"},
     {code::wrong_components, "error: an attribute has another number of components than axes, quaternions, tensors or exponents need"},
     {code::order_unknown, "error: the order of a quaternion's or tensor's components is not said, or is none"},
     {code::bad_orientation, "warning: quaternions that are not of length 1 are made so; those of no length, and singular or negative tensors, are left out"},
-    {code::no_bonds, "error: a style draws bonds, and the file has neither bonds nor elements to find them by"},
 }};
 
 } // namespace mote

@@ -9,6 +9,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 namespace mote::passes {
 namespace {
 
@@ -46,7 +49,8 @@ public:
                      {"shipped passes: " + list_of(ShaderSource::shipped()) + ".", did_you_mean(word, ShaderSource::shipped())});
     if (!description || !source_.exists()) return;
     Diagnostics problems;
-    file_ = parse_pass_file(*description, source_.description_path(), problems);
+    description_ = *description;
+    file_ = parse_pass_file(description_, source_.description_path(), problems);
     for (const FileInput& input : file_.inputs)
       slots.push_back({.name = input.name, .access = rg::Access::Sampled, .summary = input.summary});
     for (const FileOutput& output : file_.outputs) {
@@ -56,6 +60,8 @@ public:
                        .makes = rg::TextureSpec{.format = output.format, .size = {.factor = output.size}}});
     }
     values_ = read_values(file_, params);
+    for (const FileParam& p : file_.params)
+      if (params.has(p.name)) set_.insert(p.name);
     if (!problems.has_errors()) {
       shader_ = source_.compile(file_, compute_);
       for (const Diagnostic& d : shader_.problems.list()) problems.add(d);
@@ -88,8 +94,13 @@ public:
     layout_ = device.create_bind_group_layout({.label = name_, .entries = entries});
     const std::array<const gpu::BindGroupLayout*, 1> layouts{&layout_};
     pipeline_layout_ = device.create_pipeline_layout({.label = name_, .bind_group_layouts = layouts});
-    uniform_ = device.create_buffer({.label = name_, .size = (values_.size() + 1) * 16, .usage = gpu::BufferUsage::Uniform | gpu::BufferUsage::CopyDst});
+    make_uniform(device);
     make_pipeline(device);
+  }
+
+  void make_uniform(gpu::Device& device) {
+    group_ = {};
+    uniform_ = device.create_buffer({.label = name_, .size = (values_.size() + 1) * 16, .usage = gpu::BufferUsage::Uniform | gpu::BufferUsage::CopyDst});
   }
 
   void update(rg::PassContext& context) override {
@@ -119,17 +130,59 @@ public:
   }
 
 private:
-  // A changed file is compiled anew; a broken one is reported, once, and the pipeline stays.
+  // Changed files are read and compiled anew; what is broken is reported, once, and the pipeline stays.
   void reload(rg::PassContext& context) {
     if (!source_.changed()) return;
-    CheckedShader next = source_.compile(file_, compute_);
+    Diagnostics problems;
+    PassFile file = file_;
+    std::vector<ParamValue> values = values_;
+    const std::string description = source_.description().value_or(description_);
+    if (description != description_) redescribe(description, file, values, problems);
+    CheckedShader next = source_.compile(file, compute_); // also notes the times of the files
+    for (const Diagnostic& d : next.problems.list()) problems.add(d);
     const auto* reports = context.frame().find<PassReports>();
-    for (const Diagnostic& d : next.problems.list())
+    for (const Diagnostic& d : problems.list())
       if (reports && reports->report) reports->report(d);
-    if (next.spirv.empty()) return;
+    if (problems.has_errors()) return;
     shader_ = std::move(next);
     gpu::Device device = context.device();
+    if (description != description_) {
+      description_ = description;
+      file_ = std::move(file);
+      values_ = std::move(values);
+      make_uniform(device);
+    }
     make_pipeline(device);
+  }
+
+  // Parameters may come, go and have other defaults; inputs and outputs are joined by the graph, which is read once.
+  void redescribe(const std::string& text, PassFile& file, std::vector<ParamValue>& values, Diagnostics& problems) const {
+    PassFile next = parse_pass_file(text, source_.description_path(), problems);
+    if (problems.has_errors()) return;
+    if (!same_slots(file, next))
+      problems.error("P012", {next.file}, fmt::format("the inputs or outputs of the pass '{}' have changed: they count when the graph is read again.", name_));
+    rg::Params none;
+    std::vector<ParamValue> fresh = read_values(next, none);
+    for (std::size_t i = 0; i < next.params.size(); ++i) { // what the graph file says stays
+      if (!set_.contains(next.params[i].name)) continue;
+      const auto before = std::find_if(file.params.begin(), file.params.end(), [&](const FileParam& p) { return p.name == next.params[i].name; });
+      if (before != file.params.end() && before->type == next.params[i].type) fresh[i] = values[static_cast<std::size_t>(before - file.params.begin())];
+    }
+    for (const std::string& name : set_)
+      if (std::none_of(next.params.begin(), next.params.end(), [&](const FileParam& p) { return p.name == name && same_type(file, p); }))
+        problems.error("P012", {next.file}, fmt::format("the graph sets the parameter '{}', which has gone or has another type now.", name));
+    if (problems.has_errors()) return;
+    file = std::move(next);
+    values = std::move(fresh);
+  }
+  static bool same_type(const PassFile& file, const FileParam& param) {
+    return std::any_of(file.params.begin(), file.params.end(), [&](const FileParam& p) { return p.name == param.name && p.type == param.type; });
+  }
+  static bool same_slots(const PassFile& a, const PassFile& b) {
+    const auto same_input = [](const FileInput& x, const FileInput& y) { return x.name == y.name && x.type == y.type; };
+    const auto same_output = [](const FileOutput& x, const FileOutput& y) { return x.name == y.name && x.format == y.format && x.size == y.size; };
+    return std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(), same_input) &&
+           std::equal(a.outputs.begin(), a.outputs.end(), b.outputs.begin(), b.outputs.end(), same_output);
   }
 
   void make_pipeline(gpu::Device& device) {
@@ -162,8 +215,10 @@ private:
   SourceLoc loc_;
   std::string name_;
   ShaderSource source_;
+  std::string description_; // text of file_
   PassFile file_;
   std::vector<ParamValue> values_;
+  std::set<std::string> set_; // parameters that the graph gives
   CheckedShader shader_;
   std::vector<gpu::ColorTargetState> targets_;
   gpu::BindGroupLayout layout_;

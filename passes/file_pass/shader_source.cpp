@@ -93,6 +93,7 @@ bool ShaderSource::changed() const {
 CheckedShader ShaderSource::compile(const PassFile& file, bool compute) {
   watched_.clear();
   watch(path_); // before it is read: a change while it is compiled is seen
+  watch(description_path());
   CheckedShader out;
   const auto text = text_of(path_);
   if (!text) {

@@ -34,7 +34,7 @@ public:
   static std::vector<std::string> shipped(); // names
 
   CheckedShader compile(const PassFile& file, bool compute);
-  // Has the shader, or anything that it includes, another time of writing than at the last compile()?
+  // Has the shader, its pass.toml or anything that it includes another time of writing than at the last compile()?
   [[nodiscard]] bool changed() const;
 
 private:

@@ -123,6 +123,18 @@ TEST_F(Batch, MoviesGoThroughFfmpeg) {
   EXPECT_FALSE(there("b.mp4"));
 }
 
+// Where ffmpeg is installed, every ending becomes a movie of all frames; odd sizes as well.
+TEST_F(Batch, MoviesOfARealFfmpeg) {
+  if (shell("command -v ffmpeg && command -v ffprobe").exit != 0) GTEST_SKIP() << "NOT TESTED: ffmpeg is not installed";
+  for (const char* ending : {"mp4", "mkv", "mov", "webm", "avi", "gif"}) {
+    const std::string file = std::string("movie.") + ending;
+    const Ran made = mote("render t.xyz --frames : -o " + file + " --size 97x55 --rate 10");
+    ASSERT_EQ(made.exit, 0) << made.err;
+    const Ran probe = shell("ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 " + file);
+    EXPECT_THAT(probe.out, HasSubstr("6")) << ending;
+  }
+}
+
 TEST_F(Batch, LegendsAreOnPicturesAndNotInAovs) {
   const std::string size = " --size 320x180";
   ASSERT_EQ(mote("render s.toml --frame 1 -o on.png --aov depth=on.npy --aov id=on_id.npy" + size).exit, 0);

@@ -155,6 +155,30 @@ TEST_F(Commands, StandardOutputAndDumps) {
   EXPECT_EQ(read_exr(path("c.exr")).channels.size(), 4u);
 }
 
+// Pictures to look at have analytic edges; EXR has the samples of the pixel centers.
+TEST_F(Commands, SmoothOutlinesWhereOnlyThePictureIsWanted) {
+  const auto pixels = [&](const std::string& words) {
+    const Ran ran = mote("render spheres:1e3:fit --size 96x54 -o a.png " + words);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    return read_png(path("a.png")).rgba8;
+  };
+  const auto sampled = pixels("--edges sampled"), smooth = pixels("--edges analytic");
+  EXPECT_NE(sampled, smooth);
+  EXPECT_EQ(pixels(""), smooth);
+  EXPECT_EQ(pixels("--expansion vertex"), smooth);
+  EXPECT_EQ(pixels("--aov id=id.npy --dump opaque.color=c.npy"), smooth) << "what else is asked for does not change the picture";
+  for (const char* words : {"--samples 1", "--panel 48", "--set opaque.samples=1", "--set opaque.edges=sampled"})
+    EXPECT_EQ(pixels(words), sampled) << words;
+  EXPECT_NE(pixels("--samples 4"), sampled);
+  EXPECT_EQ(pixels("--samples 4 --graph smooth"), pixels("--set variables.samples=4 --graph smooth"));
+  EXPECT_EQ(mote("render spheres:1e3:fit -o a.png --samples 4 --edges analytic").exit, 2);
+  const Ran five = mote("render spheres:1e3:fit -o a.png --samples 5");
+  EXPECT_NE(five.exit, 0);
+  EXPECT_THAT(five.err, HasSubstr("P007"));
+  ASSERT_EQ(mote("render spheres:1e3:fit --size 96x54 -o a.exr").exit, 0);
+  EXPECT_EQ(mote("compare a.exr --reference spheres:1e3:fit --limits id=0,rms=0.5").exit, 0);
+}
+
 TEST_F(Commands, EqualInputGivesEqualFiles) {
   ASSERT_EQ(mote("render spheres:1e3:fill -o a.png --size 160x90").exit, 0);
   ASSERT_EQ(mote("render spheres:1e3:fill -o b.png --size 160x90").exit, 0);

@@ -198,6 +198,29 @@ TEST_F(FilePasses, AChangedShaderIsInTheNextFrame) {
   EXPECT_EQ(reports_, "");
 }
 
+TEST_F(FilePasses, AChangedDescriptionIsInTheNextFrame) {
+  const std::string out = "schema = 1\n[outputs]\ncolor = { format = 'rgba32float' }\n[params]\n";
+  write("pass.toml", out + "a = { type = 'float', default = 1.0 }\nb = { type = 'float', default = 1.0 }\n");
+  write("made.glsl", "void main() { o_color = vec4(a + 10.0 * b); }\n");
+  EXPECT_THAT(run("[[pass]]\nname = 'made'\nkind = 'fullscreen'\nparams = { shader = 'made.glsl', b = 2.0 }\n"), Each(glm::vec4(21)));
+  change("pass.toml", out + "b = { type = 'float', default = 9.0 }\nc = { type = 'vec2', default = [0.5, 0.5] }\na = { type = 'float', default = 4.0 }\n");
+  EXPECT_THAT(frame(), Each(glm::vec4(24))) << "a new default counts, what the graph says stays";
+  change("made.glsl", "void main() { o_color = vec4(a + 10.0 * b + c.x); }\n");
+  EXPECT_THAT(frame(), Each(glm::vec4(24.5)));
+  EXPECT_EQ(reports_, "");
+  const auto refused = [&](const std::string& toml, const std::string& words) {
+    reports_.clear();
+    change("pass.toml", toml);
+    EXPECT_THAT(frame(), Each(glm::vec4(24.5)));
+    EXPECT_THAT(reports_, HasSubstr(words));
+  };
+  refused("schema = 1\n[outputs]\ncolor = { format = 'rgba16float' }\n", "pass.toml: error P012: the inputs or outputs of the pass 'made' have changed");
+  refused(out + "a = { type = 'float' }\nc = { type = 'vec2' }\n", "P012: the graph sets the parameter 'b'");
+  refused(out + "a = { type = 'flot' }\n", "error P011");
+  change("pass.toml", out + "b = { type = 'float', default = 9.0 }\nc = { type = 'vec2', default = [1.5, 0.5] }\na = { type = 'float', default = 4.0 }\n");
+  EXPECT_THAT(frame(), Each(glm::vec4(25.5)));
+}
+
 TEST_F(FilePasses, ABrokenShaderKeepsTheLastGoodOne) {
   write("pass.toml", "schema = 1\n[outputs]\ncolor = { format = 'rgba32float' }\n");
   write("made.glsl", "void main() { o_color = vec4(1.0); }\n");

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "app/library/smoothing.hpp"
+
+#include <fmt/format.h>
+
+namespace mote::app {
+
+bool takes_edges(const GraphRequest& request, passes::Expansion expansion, std::uint64_t particles) {
+  return !request.linear && !request.every_aov && expansion != passes::Expansion::Compute && particles <= most_with_edges;
+}
+
+void request_smoothing(GraphRequest& request, const Smoothing& smoothing, bool automatic) {
+  if (smoothing.samples != 0) request.opaque_settings = {fmt::format("samples={}", smoothing.samples)};
+  else if (smoothing.edges != "auto") request.opaque_settings = {fmt::format("edges=\"{}\"", smoothing.edges)};
+  else if (automatic) request.opaque_settings = {"edges=\"analytic\""};
+  request.opaque_settings_yield = !smoothing.asked();
+}
+
+} // namespace mote::app

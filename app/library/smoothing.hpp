@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// How smooth the outlines of a picture are, where the graph does not say it: one sample a pixel, several, or analytic
+// edges. Changes the request for the graph before it is compiled. docs/decisions.md has the reasons for `automatic`.
+#pragma once
+
+#include "app/library/graphs.hpp"
+#include "app/library/job.hpp"
+#include "passes/frame.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace mote::app {
+
+struct Smoothing {
+  std::string edges{"auto"};  // "analytic", "sampled"
+  std::uint32_t samples{};    // a pixel; 0: not asked for
+  [[nodiscard]] bool asked() const { return samples != 0 || edges != "auto"; }
+};
+
+// The largest scene whose pictures get analytic edges by themselves: larger ones are drawn several times faster by tiles.
+inline constexpr std::uint64_t most_with_edges = 20'000;
+
+// May a picture have analytic edges without being asked for? Only one to look at: linear values with AOVs beside them (EXR) are
+// those of the pixel centers. AOVs in files of their own change nothing. `expansion`: what was asked for.
+[[nodiscard]] bool takes_edges(const GraphRequest& request, passes::Expansion expansion, std::uint64_t particles);
+
+// What the user said, or `automatic` where nothing was said and no pass says something itself.
+void request_smoothing(GraphRequest& request, const Smoothing& smoothing, bool automatic);
+
+} // namespace mote::app
