@@ -67,11 +67,10 @@ double ellipsoid_curvature(const Particle& p) {
   return least * least / std::max({a.x, a.y, a.z});
 }
 
-// Slabs (Kay and Kajiya 1986), with the faces that end the interval: axis and sign.
+// Slabs (Kay and Kajiya 1986), with the axes of the faces that end the interval.
 struct Face {
   double t{};
   int axis{};
-  double sign{};
 };
 struct Slabs {
   glm::dmat3 axes{1};
@@ -90,7 +89,7 @@ std::optional<Slabs> slabs(const Particle& p, const Ray& ray) {
       if (std::abs(l[k]) > half[k]) return std::nullopt;
       continue;
     }
-    Face low{(-half[k] - l[k]) / d[k], k, -1.0}, high{(half[k] - l[k]) / d[k], k, 1.0};
+    Face low{(-half[k] - l[k]) / d[k], k}, high{(half[k] - l[k]) / d[k], k};
     if (low.t > high.t) std::swap(low, high);
     if (low.t > s.in.t) s.in = low;
     if (high.t < s.out.t) s.out = high;
@@ -107,8 +106,9 @@ std::optional<Interval> box_intersect(const Particle& p, const Ray& ray) {
 glm::dvec3 box_normal(const Particle& p, const Ray& ray, bool exit) {
   const auto s = slabs(p, ray);
   if (!s) return glm::dvec3(0);
-  const Face& face = exit ? s->out : s->in;
-  return s->axes[face.axis] * face.sign;
+  // By the ray's direction, not by which plane it was: those of a plate are one.
+  const glm::dvec3 axis = s->axes[exit ? s->out.axis : s->in.axis];
+  return (glm::dot(axis, ray.direction) >= 0.0) == exit ? axis : -axis;
 }
 
 Bounds box_bounds(const Particle& p) {
