@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "app/library/smoothing.hpp"
 
+#include "passes/particles/particle_type.hpp"
+
 #include <fmt/format.h>
 
 namespace mote::app {
 
-bool takes_edges(const GraphRequest& request, passes::Expansion expansion, std::uint64_t particles) {
-  return !request.linear && !request.every_aov && expansion != passes::Expansion::Compute && particles <= most_with_edges;
+bool takes_edges(const GraphRequest& request, passes::Expansion expansion, const Scene& scene) {
+  for (const Batch& batch : scene.batches) {
+    const passes::ParticleType* type = passes::find_particle_type(batch.type);
+    if (!type || !type->analytic_edges) return false;
+  }
+  return !request.linear && !request.every_aov && expansion != passes::Expansion::Compute && scene.particle_count() <= most_with_edges;
 }
 
 void request_smoothing(GraphRequest& request, const Smoothing& smoothing, bool automatic) {

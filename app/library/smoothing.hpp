@@ -23,7 +23,8 @@ inline constexpr std::uint64_t most_with_edges = 20'000;
 
 // May a picture have analytic edges without being asked for? Only one to look at: linear values with AOVs beside them (EXR) are
 // those of the pixel centers. AOVs in files of their own change nothing. `expansion`: what was asked for.
-[[nodiscard]] bool takes_edges(const GraphRequest& request, passes::Expansion expansion, std::uint64_t particles);
+// Every type of the scene must have them.
+[[nodiscard]] bool takes_edges(const GraphRequest& request, passes::Expansion expansion, const Scene& scene);
 
 // What the user said, or `automatic` where nothing was said and no pass says something itself.
 void request_smoothing(GraphRequest& request, const Smoothing& smoothing, bool automatic);
