@@ -91,7 +91,7 @@ private:
     Words words(pdb_columns(line.text, 14, 80));
     const std::string_view name = words.next(), number = words.next();
     std::uint64_t row = 0, serial = 0;
-    if (!parse_count(name.substr(5), row) || row != rows_ + 1)
+    if (name.size() < 6 || !parse_count(name.substr(5), row) || row != rows_ + 1)
       refuse(line, name,
              fmt::format("row BIOMT{} of an operator is needed here, not {}", rows_ + 1, shown(name)));
     if (!parse_count(number, serial) || (row > 1 && serial != serial_))
