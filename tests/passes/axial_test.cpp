@@ -187,7 +187,7 @@ TEST_P(Axial, FarAway) {
     std::vector<Glyph> glyphs;
     for (int i = 0; i < 9; ++i) glyphs.push_back(axial(GetParam(), {(i % 3 - 1) * 5.0, (i / 3 - 1) * 5.0, 0.0}, {0.9 * std::cos(i), 0.9 * std::sin(i), 0.3 * i - 1}, 0.7));
     const Scene scene = glyph_scene(type_of(GetParam()), glyphs);
-    check(scene, look(scene, {0.3 * far, 0.2 * far, far}, {0, 0, 0}, {200, 200}, glm::degrees(20.0 / far)), {.least_hits = 0.05, .normal_factor = far > 1e4 ? 60.0 : 6.0});
+    check(scene, look(scene, {0.3 * far, 0.2 * far, far}, {0, 0, 0}, {200, 200}, glm::degrees(20.0 / far)), {.least_hits = 0.02, .normal_factor = far > 1e4 ? 60.0 : 6.0});
   }
 }
 
