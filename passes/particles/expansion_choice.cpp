@@ -73,6 +73,9 @@ ExpansionChoice choose_expansion(const ExpansionNeeds& needs, const FrameOptions
     if (!refused[0].empty()) fail(Exit::Failed, "P001", {}, refused[0], {"mote graph --kinds prints what works together"});
     ViewContents contents = survey(needs.scene, needs.view, needs.selection);
     contents.aovs = needs.aovs;
+    const bool spheres = std::all_of(needs.scene.batches.begin(), needs.scene.batches.end(), [&](const Batch& b) { return !needs.selection.draws(b) || b.type == "sphere"; });
+    for (std::size_t i = 0; i < refused.size() && !spheres; ++i) // the model was measured with spheres
+      if (costed_expansions[i] == Expansion::Compute && refused[i].empty()) refused[i] = "what tiles cost with other types than spheres is not known yet";
     choice = chooser.choose(options.costs ? *options.costs : shipped_costs(gpu::DeviceType::Cpu), contents, refused, options.frames);
   } else {
     const std::string reason = why_not(options.expansion, needs);
