@@ -19,7 +19,7 @@ struct Smoothing {
 };
 
 // The largest scene whose pictures get analytic edges by themselves: larger ones are drawn several times faster by tiles.
-inline constexpr std::uint64_t most_with_edges = 3'000;
+inline constexpr std::uint64_t most_with_edges = 20'000;
 
 // May a picture have analytic edges without being asked for? Only one to look at: linear values with AOVs beside them (EXR) are
 // those of the pixel centers. AOVs in files of their own change nothing. `expansion`: what was asked for.

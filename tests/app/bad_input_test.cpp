@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"set_light", "render good.csv --set light.sun.intensity=1", 2, "S017", "names: headlight"},
         BadInput{"generated_count", "render spheres:lots:fit", 2, "S019", "'lots' is not a number"},
         BadInput{"generated_camera", "render spheres:1e3:fitt", 2, "S019", "Did you mean 'fit'?"},
-        BadInput{"style", "render good.csv --style lycorice", 3, "S006", "Did you mean 'licorice'?"},
+        BadInput{"style", "render good.csv --style lycorice", 2, "S006", "Did you mean 'licorice'?"},
         BadInput{"two_scenes", "render key.toml good.csv", 2, "S009", "cannot be combined"},
         BadInput{"bench_frames", "bench good.csv --frames 0", 2, "A001", "0"},
         BadInput{"compare_one", "compare good.png", 2, "A001", "compare takes two pictures"},

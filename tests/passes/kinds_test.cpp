@@ -22,7 +22,7 @@ struct KnownAnswer {
 constexpr std::array known_answers{
     KnownAnswer{"opaque_impostors", "Sphere.OneSphereHasItsExactOutlineAndDepth"},
     KnownAnswer{"ocio_tonemap", "Sphere.ShadesAsTheEquationSays"}, // linear red is (255, 0, 0) on an sRGB display
-    KnownAnswer{"shadow_map", "Shadows.KnownAnswer"},
+    KnownAnswer{"shadow_map", "Shadows.KnownAnswer/vertex"},
     KnownAnswer{"fullscreen", "FilePasses.FullscreenKnownAnswer"},
     KnownAnswer{"compute", "FilePasses.ComputeKnownAnswerAndInputsOfOtherPasses"},
     KnownAnswer{"sorted_glyphs", "Transparent.TwoStackedGlyphsInBothOrders"},

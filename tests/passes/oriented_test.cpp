@@ -55,7 +55,7 @@ protected:
   // Edges between faces of one particle make no pixel ambiguous, but its normal and color.
   [[nodiscard]] Bars bars(double hits, double depth = 1.0, double normal = 4.0) const {
     const bool rounded = GetParam() == "superquadric";
-    return {.least_hits = hits, .depth_factor = depth * (rounded ? 3.0 : 1.0), .normal_factor = normal * (rounded ? 25.0 : 1.0),
+    return {.least_hits = hits * (rounded ? 0.4 : 1.0), .depth_factor = depth * (rounded ? 3.0 : 1.0), .normal_factor = normal * (rounded ? 25.0 : 1.0),
             .colors_off = GetParam() == "ellipsoid" ? 0.0 : 2e-4};
   }
 };
