@@ -116,10 +116,10 @@ vec2 tile_round(TileRay r, float radius, float slope, float z0) {
   float fp_dp = r.f_d - r.fz * r.dz, fp2 = r.f_f - r.fz * r.fz;
   float q = rho * rho * r.dp2 + rho_d * (rho_d * fp2 - 2.0 * rho * fp_dp) - r.across * r.across;
   float a = r.dp2 - rho_d * rho_d, b = fp_dp - rho * rho_d;
-  float root = sqrt(max(q, 0.0)), inverse = 1.0 / (abs(a) > 1e-14 ? a : 1e-14);
-  float one = (-b - root) * inverse, other = (root - b) * inverse;
+  float root = sqrt(max(q, 0.0)), sum = b >= 0.0 ? -(b + root) : root - b; // never root - |b|: rays along a generator have a = 0
+  float one = sum != 0.0 ? (fp2 - rho * rho) / sum : 0.0, other = sum / (abs(a) > 1e-14 ? a : -1e-14);
   vec2 s = vec2(min(one, other), max(one, other));
-  vec2 closed = q >= 0.0 && rho - rho_d * b * inverse >= 0.0 ? s : vec2(beyond, -beyond);
+  vec2 closed = q >= 0.0 && rho + rho_d * 0.5 * (s.x + s.y) >= 0.0 ? s : vec2(beyond, -beyond);
   vec2 open = rho_d > 0.0 ? vec2(s.y, beyond) : vec2(-beyond, s.x);
   vec2 along = fp2 <= rho * rho ? vec2(-beyond, beyond) : vec2(beyond, -beyond);
   return slope == 0.0 && r.dp2 < 1e-12 ? along : a > 0.0 ? closed : open;
