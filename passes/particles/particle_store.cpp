@@ -296,13 +296,13 @@ void ParticleStore::place_tiles(const Scene& scene, const View& view, std::strin
         const auto [known, added] = slices.try_emplace(&slice, static_cast<std::uint32_t>(out.slices.size()));
         if (added) out.slices.push_back({slice.records, slice.rows, slice.colors});
         place_for_tiles(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler,
-                        {static_cast<std::uint32_t>(out.draws.size()), placing.exact, placing.margin}, chunks);
+                        {static_cast<std::uint32_t>(out.draws.size()), placing.exact, placing.margin, placing.splats}, chunks);
         out.draws.push_back(tile_draw(batch, k, view, out.materials));
         if (placing.material) out.draws.back().material = placing.material(batch) & 0xFFFFu;
         out.draws.back().slice = known->second & 0x7FFFu;
         out.draws.back().first_flag = out.flags;
         if (near_before < chunks.near.size()) out.draws.push_back(near_draw(out.draws.back()));
-        for (; near_before < chunks.near.size(); ++near_before) chunks.near[near_before].draw = static_cast<std::uint32_t>(out.draws.size() - 1);
+        for (; near_before < chunks.near.size(); ++near_before) chunks.near[near_before].draw = (out.draws.size() - 1) & 0x3FFFFFFFu;
         out.flags += static_cast<std::uint32_t>(slice.chunk_count);
         total += slice.chunk_count;
         placed.append(runs, batch, k, slice, chunks.rest);

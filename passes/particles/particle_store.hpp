@@ -71,6 +71,7 @@ struct TiledView {
 struct TilePlacing {
   bool exact{};    // depth or normals are asked for
   double margin{}; // pixels by which particles may be widened
+  bool splats{};   // chunks of small particles may be drawn by splats
   std::function<std::uint32_t(const Batch&)> material{}; // a batch's number, where it is not that of TiledView::materials
 };
 

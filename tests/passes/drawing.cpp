@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include <cstring>
+#include <random>
 
 namespace mote::test {
 namespace {
@@ -30,6 +31,7 @@ Drawing::Drawing(gpu::Device device, const passes::FrameOptions& options, bool e
   auto graph = rg::compile_file(MOTE_SOURCE_DIR "/app/graphs/default.toml", registry, roots, {});
   EXPECT_TRUE(graph.plan) << to_string(graph.diagnostics);
   executor_ = std::make_unique<rg::Executor>(device_, *graph.plan, graph.passes);
+  executor_->set_stage_times(true);
   options_.chosen = [this](const passes::ExpansionReport& report) { choices_.push_back(report); };
 }
 
@@ -69,24 +71,67 @@ bool Drawing::display_ran() {
   return false;
 }
 
+bool Drawing::stage_ran(std::string_view stage) {
+  for (const rg::PassTiming& timing : executor_->timings(true))
+    if (timing.name == "opaque")
+      return std::any_of(timing.stages.begin(), timing.stages.end(), [&](const auto& s) { return s.name == stage; });
+  return false;
+}
+
+Scene cloud_scene(std::uint32_t count, double radius, std::uint32_t seed, double half) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> u(-half, half);
+  std::vector<glm::dvec4> spheres;
+  for (std::uint32_t i = 0; i < count; ++i) spheres.emplace_back(u(random), u(random), u(random), radius * (1.0 + 0.05 * u(random) / half));
+  return scene_of(spheres);
+}
+
+// Ids equal but for pixels on the edge of a particle, where the two may round differently: at most 1 in 10 000.
+void expect_same(const Picture& tiles, const Picture& vertex, const std::string& what) {
+  ASSERT_EQ(tiles.id.size(), vertex.id.size()) << what;
+  std::size_t different = 0, color = 0, depth = 0, hits = 0;
+  for (std::size_t i = 0; i < vertex.id.size(); ++i) {
+    hits += vertex.id[i] != 0xFFFFFFFFu;
+    if (tiles.id[i] != vertex.id[i]) {
+      ++different;
+      continue;
+    }
+    if (vertex.id[i] == 0xFFFFFFFFu) {
+      ASSERT_EQ(tiles.depth[i], vertex.depth[i]) << what;
+    } else {
+      depth += std::abs(tiles.depth[i] - vertex.depth[i]) > 5e-7f * vertex.depth[i];
+    }
+    const glm::vec4 c = glm::abs(tiles.color[i] - vertex.color[i]);
+    color += std::max({c.r, c.g, c.b}) > 2.0f / 255.0f;
+  }
+  EXPECT_LE(different, vertex.id.size() / 10000) << what << ", of " << hits << " pixels hit";
+  EXPECT_LE(depth, vertex.id.size() / 1000) << what;
+  EXPECT_LE(color, vertex.id.size() / 1000) << what;
+}
+
 namespace {
 struct Bare {
   gpu::Instance instance;
   gpu::Device device;
 };
+Bare* make_bare(gpu::Feature features) { // for the life of the process, like the harness's
+  auto made = new Bare;
+  gpu::Error error;
+  made->instance = gpu::Instance::create({.validation = true}, error);
+  made->device = made->instance.request_adapter({}, error).request_device({.required_features = features, .fill_new_memory = true}, error);
+  EXPECT_TRUE(made->device) << to_string(error);
+  return made;
+}
 Bare& bare() {
-  static Bare* b = [] {
-    auto made = new Bare; // for the life of the process, like the harness's
-    gpu::Error error;
-    made->instance = gpu::Instance::create({.validation = true}, error);
-    made->device = made->instance.request_adapter({}, error).request_device({.fill_new_memory = true}, error);
-    EXPECT_TRUE(made->device) << to_string(error);
-    return made;
-  }();
+  static Bare* b = make_bare(gpu::Feature::None);
   return *b;
 }
 } // namespace
 
+gpu::Device plain_subgroup_device() {
+  static Bare* b = make_bare(gpu::Feature::Subgroups);
+  return b->device;
+}
 gpu::Device bare_device() { return bare().device; }
 std::vector<std::string> bare_device_messages() { return bare().instance.validation_messages(); }
 

@@ -9,6 +9,7 @@
 #include "render_graph/executor.hpp"
 
 #include <memory>
+#include <string_view>
 
 namespace mote::test {
 
@@ -23,6 +24,7 @@ public:
   [[nodiscard]] const std::vector<passes::ExpansionReport>& choices() const { return choices_; } // of the last frame
   [[nodiscard]] Diagnostics report();                                                           // of the last frame
   [[nodiscard]] bool display_ran();
+  [[nodiscard]] bool stage_ran(std::string_view stage); // of the opaque pass, in the last frame
 
 private:
   gpu::Device device_;
@@ -34,6 +36,13 @@ private:
   std::vector<passes::ExpansionReport> choices_;
 };
 
+// Spheres at random places of a cube, their radii within 5 % of `radius`.
+Scene cloud_scene(std::uint32_t count, double radius, std::uint32_t seed, double half = 10.0);
+// Ids equal but for pixels on the edge of a particle, where the two may round differently: at most 1 in 10 000.
+void expect_same(const Picture& tiles, const Picture& vertex, const std::string& what);
+
+// A device with subgroups, but without atomics of 64 bits.
+gpu::Device plain_subgroup_device();
 // A device with no optional feature at all, and what the validation layer has said about it.
 gpu::Device bare_device();
 std::vector<std::string> bare_device_messages();

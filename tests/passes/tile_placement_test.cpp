@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 using namespace mote;
@@ -15,6 +16,7 @@ namespace {
 // Tiles of the pixels whose rays hit a sphere in view space in front of the eye; lo.x > hi.x: none.
 struct Tiles {
   glm::uvec2 lo{1u << 30}, hi{0};
+  glm::uvec2 first{1u << 30}, last{0}; // pixels
 };
 Tiles tiles_of(const View& view, const glm::dvec3& center, double radius) {
   Tiles tiles;
@@ -26,12 +28,15 @@ Tiles tiles_of(const View& view, const glm::dvec3& center, double radius) {
       const glm::uvec2 tile(x / tile_size, y / tile_size);
       tiles.lo = glm::min(tiles.lo, tile);
       tiles.hi = glm::max(tiles.hi, tile);
+      tiles.first = glm::min(tiles.first, {x, y});
+      tiles.last = glm::max(tiles.last, {x, y});
     }
   return tiles;
 }
 
 struct Counts {
   int tiled{}, near{}, rest{}, hits{};
+  std::array<int, 4> sides{}; // particles, by the side of their chunk, if it is for splats
 };
 
 void expect_inside(const TileChunk& chunk, const Tiles& tiles, Counts& counts) {
@@ -42,11 +47,14 @@ void expect_inside(const TileChunk& chunk, const Tiles& tiles, Counts& counts) {
   const std::uint32_t x = chunk.rect_lo >> 24, y = chunk.rect_hi >> 24;
   ASSERT_TRUE(x == 255 || span.x <= x) << span.x << " tiles in x, at most " << x;
   ASSERT_TRUE(y == 255 || span.y <= y) << span.y << " tiles in y, at most " << y;
+  const glm::uvec2 pixels = tiles.last - tiles.first + 1u;
+  ++counts.sides[chunk.side];
+  ASSERT_TRUE(chunk.side == 0 || std::max(pixels.x, pixels.y) <= chunk.side) << pixels.x << " x " << pixels.y << " pixels, side " << chunk.side;
 }
 
-void check_view(const ChunkSet& set, const Instance& instance, const View& view, Counts& counts) {
+void check_view(const ChunkSet& set, const Instance& instance, const View& view, Counts& counts, bool splats = false) {
   PlacedForTiles out;
-  place_for_tiles(set, 0, set.chunks.size(), instance, view, ViewCuller(view), {.draw = 5}, out);
+  place_for_tiles(set, 0, set.chunks.size(), instance, view, ViewCuller(view), {.draw = 5, .splats = splats}, out);
   std::vector<int> placed(set.chunks.size());
   const double scale = similarity_scale(instance.world_from_data).value();
   for (const TileChunk& chunk : out.tiled) {
@@ -105,6 +113,36 @@ TEST(TilePlacement, RectanglesHoldEveryPixelOfTheirParticles) {
   EXPECT_GT(counts.near, 3);
   EXPECT_GT(counts.rest, 3);
   EXPECT_GT(counts.hits, 2000);
+}
+
+// Spheres of 0.05 to 3 pixels: none covers more pixel centers than the side of its chunk says.
+TEST(TilePlacement, SidesOfSplatsHoldEveryPixelOfTheirParticles) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> u(-1, 1);
+  Counts counts;
+  for (int i = 0; i < 300 && !HasFatalFailure(); ++i) {
+    Camera camera;
+    camera.projection = i % 3 ? Projection::Perspective : Projection::Orthographic;
+    camera.eye = glm::normalize(glm::dvec3(u(random), u(random), u(random))) * 60.0;
+    camera.target = {0, 0, 0};
+    camera.up = {0.1, 1, 0.2};
+    camera.fov_y = 20.0 + 60.0 * std::abs(u(random));
+    camera.height = 20.0;
+    View view = make_view(camera, {61, 43}, 30.0);
+    view.sample_offset = {0.5 + 0.4 * u(random), 0.5 + 0.4 * u(random)};
+    const double pixel = 60.0 / view.focal * (camera.projection == Projection::Perspective ? 1.0 : 1.0 / 60.0);
+    std::vector<glm::dvec3> centers;
+    std::vector<double> radii;
+    std::vector<std::uint32_t> rows;
+    const double radius = pixel * std::pow(10.0, -0.4 + 0.9 * u(random));
+    for (std::uint32_t k = 0; k < 40; ++k) {
+      centers.push_back(glm::dvec3(u(random), u(random), u(random)) * 8.0);
+      radii.push_back(radius);
+      rows.push_back(k);
+    }
+    check_view(build_spheres(centers, radii, rows, {}), {}, view, counts, true);
+  }
+  for (const int count : counts.sides) EXPECT_GT(count, 100);
 }
 
 } // namespace

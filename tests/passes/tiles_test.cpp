@@ -8,8 +8,6 @@
 
 #include <gmock/gmock.h>
 
-#include <random>
-
 namespace mote::test {
 namespace {
 
@@ -18,46 +16,15 @@ using ::testing::HasSubstr;
 
 class Tiles : public GpuTest {};
 
-Scene cloud(std::uint32_t count, double radius, std::uint32_t seed, double half = 10.0) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> u(-half, half);
-  std::vector<glm::dvec4> spheres;
-  for (std::uint32_t i = 0; i < count; ++i) spheres.emplace_back(u(random), u(random), u(random), radius * (1.0 + 0.05 * u(random) / half));
-  return scene_of(spheres);
-}
-
 std::vector<Expansion> expansions_used(const Drawing& drawing) {
   std::vector<Expansion> out;
   for (const auto& report : drawing.choices()) out.push_back(report.choice.expansion);
   return out;
 }
 
-// Ids equal but for pixels on the edge of a particle, where the two may round differently: at most 1 in 10 000.
-void expect_same(const Picture& tiles, const Picture& vertex, const std::string& what) {
-  ASSERT_EQ(tiles.id.size(), vertex.id.size()) << what;
-  std::size_t different = 0, color = 0, depth = 0, hits = 0;
-  for (std::size_t i = 0; i < vertex.id.size(); ++i) {
-    hits += vertex.id[i] != 0xFFFFFFFFu;
-    if (tiles.id[i] != vertex.id[i]) {
-      ++different;
-      continue;
-    }
-    if (vertex.id[i] == 0xFFFFFFFFu) {
-      ASSERT_EQ(tiles.depth[i], vertex.depth[i]) << what;
-    } else {
-      depth += std::abs(tiles.depth[i] - vertex.depth[i]) > 5e-7f * vertex.depth[i];
-    }
-    const glm::vec4 c = glm::abs(tiles.color[i] - vertex.color[i]);
-    color += std::max({c.r, c.g, c.b}) > 2.0f / 255.0f;
-  }
-  EXPECT_LE(different, vertex.id.size() / 10000) << what << ", of " << hits << " pixels hit";
-  EXPECT_LE(depth, vertex.id.size() / 1000) << what;
-  EXPECT_LE(color, vertex.id.size() / 1000) << what;
-}
-
 // Sixty chunks to a thousand; the camera moves, then jumps to the other side, then into the cloud.
 TEST_F(Tiles, FramesOfAMovingCameraAndACutEqualTheVertexExpansion) {
-  const Scene scene = cloud(20000, 0.35, 5);
+  const Scene scene = cloud_scene(20000, 0.35, 5);
   Drawing tiles(device(), {.expansion = Expansion::Compute}), vertex(device(), {.expansion = Expansion::Vertex});
   const Size2d size{320, 200};
   std::vector<View> views;
@@ -76,7 +43,7 @@ TEST_F(Tiles, FramesOfAMovingCameraAndACutEqualTheVertexExpansion) {
 
 // Chunks of the first scene were seen; the second scene has others in their places.
 TEST_F(Tiles, AnotherSceneForgetsNothingThatShows) {
-  const Scene one = cloud(9000, 0.5, 1), two = cloud(12000, 0.4, 2);
+  const Scene one = cloud_scene(9000, 0.5, 1), two = cloud_scene(12000, 0.4, 2);
   Drawing tiles(device(), {.expansion = Expansion::Compute}), vertex(device(), {.expansion = Expansion::Vertex});
   for (const Scene* scene : {&one, &two, &one}) {
     const View view = look(*scene, {4, 5, 40}, {0, 0, 0}, {200, 150});
@@ -86,8 +53,8 @@ TEST_F(Tiles, AnotherSceneForgetsNothingThatShows) {
 
 // Thousands of particles in one tile: more than its own places hold, so that the list and the second go are needed.
 TEST_F(Tiles, ATileWithThousandsOfParticles) {
-  Scene scene = cloud(6000, 0.05, 3, 0.4);
-  const Scene wide = cloud(300, 0.3, 4);
+  Scene scene = cloud_scene(6000, 0.05, 3, 0.4);
+  const Scene wide = cloud_scene(300, 0.3, 4);
   scene = join({scene, wide});
   const View view = look(scene, {0, 0, 60}, {0, 0, 0}, {256, 256});
   Drawing tiles(device(), {.expansion = Expansion::Compute}), vertex(device(), {.expansion = Expansion::Vertex});
@@ -104,7 +71,7 @@ Scene with_material(Scene scene, ShadingModel model, double specular) {
 }
 
 Scene mixed(ShadingModel first, ShadingModel second) {
-  Scene a = with_material(cloud(2000, 0.5, 6), first, 0.4), b = with_material(cloud(1500, 0.7, 7), second, 0.3);
+  Scene a = with_material(cloud_scene(2000, 0.5, 6), first, 0.4), b = with_material(cloud_scene(1500, 0.7, 7), second, 0.3);
   b.batches[0].color = {0.1, 0.5, 0.9};
   std::vector<glm::dvec4> spheres;
   for (int i = 0; i < 300; ++i) spheres.emplace_back(9.0 * std::sin(i), 9.0 * std::cos(1.3 * i), 9.0 * std::sin(2.1 * i), 0.9);
@@ -171,7 +138,7 @@ TEST_F(Tiles, TheFusedDisplayTransformIsTheDisplayPass) {
 }
 
 TEST_F(Tiles, OddSizes) {
-  const Scene scene = cloud(3000, 0.5, 8);
+  const Scene scene = cloud_scene(3000, 0.5, 8);
   Drawing tiles(device(), {.expansion = Expansion::Compute}), vertex(device(), {.expansion = Expansion::Vertex}), fused(device(), {.expansion = Expansion::Compute}, false);
   for (const Size2d size : {Size2d{1, 1}, Size2d{7, 9}, Size2d{641, 361}, Size2d{8, 8}, Size2d{300, 1}}) {
     const View view = look(scene, {2, 1.5, 20}, {0, 0, 0}, size); // particles up to the edges
@@ -185,7 +152,7 @@ TEST_F(Tiles, OddSizes) {
 }
 
 TEST_F(Tiles, NothingInViewIsTheBackground) {
-  Scene scene = cloud(3000, 0.3, 8);
+  Scene scene = cloud_scene(3000, 0.3, 8);
   scene.background = {0.25, 0.5, 1.0, 1.0};
   Drawing tiles(device(), {.expansion = Expansion::Compute}), fused(device(), {.expansion = Expansion::Compute}, false);
   const View away = look(scene, {0, 0, 60}, {0, 0, 200}, {50, 30}), seen = look(scene, {0, 0, 60}, {0, 0, 0}, {50, 30});
@@ -200,7 +167,7 @@ TEST_F(Tiles, NothingInViewIsTheBackground) {
 }
 
 TEST_F(Tiles, ADeviceWithoutSubgroupsDrawsByVerticesAndSaysSo) {
-  const Scene scene = cloud(3000, 0.4, 9);
+  const Scene scene = cloud_scene(3000, 0.4, 9);
   const View view = look(scene, {5, 4, 40}, {0, 0, 0}, {100, 70});
   passes::DeviceCosts costs;
   costs.costs[0] = {1, 0, 0, 0, 0};

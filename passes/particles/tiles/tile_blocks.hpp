@@ -25,11 +25,14 @@ inline glm::uvec2 corner(std::uint32_t packed) { return {packed & 0xFFFu, (packe
 
 // A chunk of one instance that the view may see: where it is, the tiles it may cover (corners, inclusive), and how many
 // tiles one of its particles may cover at most in x (in rect_lo) and y (in rect_hi); 255 and more: all of its rectangle's.
+// With `side` it is drawn by splats: no particle of it covers more pixel centers than that in x or in y.
 struct TileChunk {
   glm::vec3 origin{};
   float z_min{};
-  std::uint32_t rect_lo{}, rect_hi{}, chunk{}, draw{};
+  std::uint32_t rect_lo{}, rect_hi{}, chunk{};
+  std::uint32_t draw : 30 {}, side : 2 {};
 };
+constexpr std::uint32_t splat_sides = 3; // 1, 2, 3 pixels
 static_assert(sizeof(TileChunk) == 32);
 
 // One for each (batch, instance, slice).

@@ -2,7 +2,7 @@
 // Pipelines and layouts of the compute expansion's kernels, made when first asked for and kept.
 //
 // Sets: 0 the frame block; 1 the records of a slice (place) or what casting reads and writes (cast); 2 the
-// buffers of binning (cull, place, allocate, scatter, far).
+// buffers of binning (cull, place, splat, allocate, scatter, far). resolve_splats and splat_far have a set 1 of their own.
 #pragma once
 
 #include "core/gpu/gpu.hpp"
@@ -33,6 +33,8 @@ public:
   // Invocations of a workgroup that casts: the widest variant that no subgroup of the device is narrower than; 0: the
   // device has no subgroup operations, or narrower ones than any variant.
   [[nodiscard]] static std::uint32_t lanes(const gpu::Device& device);
+  // Whether small particles of a type are drawn by splats: needs atomic minima of 64 bits.
+  [[nodiscard]] static bool splats(const gpu::Device& device, const std::string& type);
 
   [[nodiscard]] const gpu::ComputePipeline& kernel(const std::string& name); // "cull", "allocate", "scatter", "far"
   [[nodiscard]] const gpu::ComputePipeline& place(const ParticlePipelineKey& key, bool first_round, bool first_slice);
@@ -44,22 +46,34 @@ public:
     std::string cache_directory{};
     [[nodiscard]] std::uint32_t shadow_set() const { return map && map->layout ? rg::PixelMap::set + 1 : 2; }
   };
-  [[nodiscard]] const gpu::ComputePipeline& cast(const CastKey& key, const Besides& besides);
+  [[nodiscard]] const gpu::ComputePipeline& cast(const CastKey& key, const Besides& besides) { return shading(key, besides, Shading::Cast); }
+  // `side`: pixels, 1 to splat_sides. `alone`: nothing is cast in this frame, and there is one slice.
+  [[nodiscard]] const gpu::ComputePipeline& splat(const ParticlePipelineKey& key, std::uint32_t side);
+  [[nodiscard]] const gpu::ComputePipeline& splat_far(bool orthographic, bool alone);
+  [[nodiscard]] const gpu::ComputePipeline& resolve_splats(const CastKey& key, const Besides& besides, bool alone) {
+    return shading(key, besides, alone ? Shading::SplatsAlone : Shading::Splats);
+  }
   [[nodiscard]] const gpu::BindGroupLayout& slice_layout() const { return slice_; }
   [[nodiscard]] const gpu::BindGroupLayout& binning_layout() const { return binning_; }
   [[nodiscard]] const gpu::BindGroupLayout& cast_layout() const { return cast_; }
+  [[nodiscard]] const gpu::BindGroupLayout& splat_far_layout() const { return splat_far_; }
+  [[nodiscard]] const gpu::BindGroupLayout& resolve_layout() const { return resolve_; } // of splats, a group for each slice
 
 private:
+  enum class Shading { Cast, Splats, SplatsAlone };
+  const gpu::ComputePipeline& shading(const CastKey& key, const Besides& besides, Shading what);
   gpu::ComputePipeline make(const std::string& shader, const gpu::PipelineLayout& layout, std::span<const gpu::SpecializationConstant> constants,
                             std::span<const std::uint32_t> words = {});
 
   gpu::Device device_;
   std::string words_; // "int64": buffers are read two words at a time, which needs the feature; else "int32"
-  gpu::BindGroupLayout frame_, slice_, binning_, cast_;
-  gpu::PipelineLayout binning_pipelines_, cast_pipelines_;
+  gpu::BindGroupLayout frame_, slice_, binning_, cast_, resolve_, splat_far_;
+  gpu::PipelineLayout binning_pipelines_, cast_pipelines_, resolve_pipelines_, far_pipelines_;
   std::map<std::string, gpu::ComputePipeline> kernels_;
   std::map<std::tuple<ParticlePipelineKey, bool, bool>, gpu::ComputePipeline> places_;
-  std::map<CastKey, gpu::ComputePipeline> casts_;
+  std::map<std::pair<ParticlePipelineKey, std::uint32_t>, gpu::ComputePipeline> splats_;
+  std::map<std::pair<bool, bool>, gpu::ComputePipeline> splat_fars_;
+  std::map<std::pair<CastKey, Shading>, gpu::ComputePipeline> shadings_;
 };
 
 } // namespace mote::passes

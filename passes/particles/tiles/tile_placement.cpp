@@ -11,8 +11,8 @@ namespace {
 // Decides whether tiles serve a box in view space, and which of them it may cover.
 class TileRects {
 public:
-  TileRects(const View& view, double margin)
-      : view_(view), margin_(margin / view.focal), perspective_(view.projection == Projection::Perspective),
+  TileRects(const View& view, const TilePlacement& how)
+      : view_(view), margin_(how.margin / view.focal), splats_(how.splats), perspective_(view.projection == Projection::Perspective),
         offset_(view.sample_offset - view.center()),
         last_(view.size.width - 1.0, view.size.height - 1.0), least_z_(std::max(view.near_cut, view.depth_near) * (1.0 + 1e-5)) {}
 
@@ -33,28 +33,37 @@ public:
     any = first.x <= last.x && first.y <= last.y;
     if (!any) return true;
     const glm::uvec2 tile_lo = glm::uvec2(first) / tile_size, tile_hi = glm::uvec2(last) / tile_size;
-    const glm::uvec2 most = most_tiles(radius, z_min, z_max, glm::max(glm::abs(lo), glm::abs(hi)));
+    const glm::dvec2 reach = glm::max(glm::abs(lo), glm::abs(hi));
+    const glm::uvec2 most = most_tiles(radius, z_min, z_max, reach);
     out.rect_lo = pack_corner(tile_lo, most.x);
     out.rect_hi = pack_corner(tile_hi, most.y);
+    out.side = splats_ ? splat_side(radius, z_min, z_max, reach) & 3u : 0u;
     out.origin = glm::vec3(box.origin);
     out.z_min = static_cast<float>(z_min);
     return true;
   }
 
 private:
-  // Tiles in x and y that a sphere covers at most if its nearest point is not before z_min and its center within `reach`
-  // of the axis. Its extent in tangents is 2 r sqrt(x^2 + z^2 - r^2) / (z^2 - r^2) (method book, 4.1).
+  // Pixels that a sphere extends at most if its nearest point is not before z_min and its center within `reach` of the axis.
+  // Its extent in tangents is 2 r sqrt(x^2 + z^2 - r^2) / (z^2 - r^2) (method book, 4.1).
+  [[nodiscard]] double extent(double radius, double z_min, double z_max, double reach) const {
+    return view_.focal * (perspective_ ? 2 * radius * std::hypot(reach, z_max) / (z_min * (z_min + 2 * radius)) : 2 * radius);
+  }
+  // Tiles in x and y that it covers at most.
   [[nodiscard]] glm::uvec2 most_tiles(double radius, double z_min, double z_max, glm::dvec2 reach) const {
     glm::uvec2 most;
-    for (int k = 0; k < 2; ++k) {
-      const double extent = perspective_ ? 2 * radius * std::hypot(reach[k], z_max) / (z_min * (z_min + 2 * radius)) : 2 * radius;
-      most[k] = static_cast<std::uint32_t>(std::min(extent * view_.focal + 0.1, 1e6)) / tile_size + 2;
-    }
+    for (int k = 0; k < 2; ++k) most[k] = static_cast<std::uint32_t>(std::min(extent(radius, z_min, z_max, reach[k]) + 0.1, 1e6)) / tile_size + 2;
     return most;
+  }
+  // Pixel centers in x or y that it covers at most, with what splat.comp allows for rounding; 0: more than splats are for.
+  [[nodiscard]] std::uint32_t splat_side(double radius, double z_min, double z_max, glm::dvec2 reach) const {
+    const double most = extent(radius, z_min, z_max, std::max(reach.x, reach.y)) + 0.05;
+    return most < splat_sides ? static_cast<std::uint32_t>(most) + 1 : 0;
   }
 
   const View& view_;
   double margin_; // tangents
+  bool splats_;
   bool perspective_;
   glm::dvec2 offset_, last_;
   double least_z_;
@@ -62,6 +71,7 @@ private:
 
 void add_near(const ChunkSet& set, std::uint64_t chunk, const ChunkPlacer& placer, const PlacedBox& box, TileChunk tiled, PlacedForTiles& out) {
   tiled.origin = glm::vec3(0);
+  tiled.side = 0;
   tiled.chunk = static_cast<std::uint32_t>(out.near_records.size() / chunk_capacity);
   out.near.push_back(tiled);
   for (std::uint64_t record = chunk * chunk_capacity; record < (chunk + 1) * chunk_capacity; ++record) {
@@ -79,7 +89,7 @@ void place_range(const ChunkSet& set, std::uint64_t first, std::uint64_t begin, 
                  const TilePlacement& how, PlacedForTiles& out) {
   PlacedBox box;
   TileChunk tiled;
-  tiled.draw = how.draw;
+  tiled.draw = how.draw & 0x3FFFFFFFu;
   for (std::uint64_t i = begin; i < end; ++i) {
     if (!placer.place(set.chunks[first + i], box)) continue;
     bool any = false;
@@ -117,7 +127,7 @@ constexpr std::uint64_t chunks_per_thread = 4096;
 void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance, const View& view,
                      const ViewCuller& culler, const TilePlacement& how, PlacedForTiles& out) {
   const ChunkPlacer placer(instance, view, culler);
-  const TileRects rects(view, how.margin);
+  const TileRects rects(view, how);
   const std::uint32_t parts = thread_count(count, chunks_per_thread);
   if (parts == 1) return place_range(set, first, 0, count, placer, rects, how, out);
   std::vector<PlacedForTiles> own(parts);

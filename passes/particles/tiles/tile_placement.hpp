@@ -27,6 +27,7 @@ struct TilePlacement {
   std::uint32_t draw{};  // goes into TileChunk
   bool exact{};          // depth or normals are asked for
   double margin{};       // pixels by which particles may be widened
+  bool splats{};         // chunks of small particles get a TileChunk::side
 };
 
 // Appends those of the chunks [first, first + count) of an instance that the view may see.

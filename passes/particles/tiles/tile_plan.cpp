@@ -37,6 +37,7 @@ void add_steps(TilePlan& plan, std::span<const TileChunk> chunks, std::uint32_t 
 } // namespace
 
 std::uint64_t reserved_entries(const TileChunk& chunk) {
+  if (chunk.side != 0) return 0;
   const glm::uvec2 span = corner(chunk.rect_hi) - corner(chunk.rect_lo) + 1u;
   const std::uint32_t x = chunk.rect_lo >> 24, y = chunk.rect_hi >> 24;
   return std::uint64_t{chunk_capacity} * std::max((x == 255 ? span.x : std::min(x, span.x)) * (y == 255 ? span.y : std::min(y, span.y)), 4u);
@@ -81,6 +82,7 @@ TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std:
   for (const TileChunk& chunk : chunks) {
     plan.depth_first = std::min(plan.depth_first, chunk.z_min);
     plan.depth_last = std::max(plan.depth_last, chunk.z_min);
+    plan.splats += chunk.side != 0;
     reserved += reserved_entries(chunk);
     largest = std::max(largest, reserved_entries(chunk));
   }

@@ -17,7 +17,7 @@
 namespace mote::passes {
 
 // Entries that a chunk reserves: for each particle the tiles that the largest may cover; at least 4 a particle, which
-// bounds the number of chunks of a round (capacity / 256). As in cull.comp.
+// bounds the number of chunks of a round (capacity / 256). None for splats. As in cull.comp.
 std::uint64_t reserved_entries(const TileChunk& chunk);
 
 struct TileStep {
@@ -35,6 +35,7 @@ struct TilePlan {
   std::uint32_t tile_room{};     // entries that each tile has places for; what is more goes to a list of most_entries
   float depth_first{}, depth_last{}; // the least and the greatest z_min of the chunks
   std::vector<TileStep> steps{};
+  std::uint32_t splats{};        // chunks that are drawn by splats: they reserve nothing
   [[nodiscard]] std::uint32_t most_rounds() const;
 };
 

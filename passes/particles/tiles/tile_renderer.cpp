@@ -30,8 +30,12 @@ std::uint32_t words_of(gpu::TextureFormat format) {
   }
 }
 
-// Uints of a step's arguments: a cursor, then (x, y, z, total) for each slice, for allocate, cast and scatter, each round.
-std::uint32_t region_size(std::uint32_t rounds, std::size_t slices) { return 4u + rounds * 4u * (static_cast<std::uint32_t>(slices) + 3u); }
+// Uints of a step's arguments: a cursor; splat_words for each slice and side of splats; 4 for splat_far; then (x, y, z, total) for each slice, for
+// allocate, cast and scatter, each round. As in work.glsl.
+constexpr std::uint32_t splat_words = 8;
+std::uint32_t splat_far_start(std::size_t slices) { return 4u + splat_words * splat_sides * static_cast<std::uint32_t>(slices); }
+std::uint32_t rounds_start(std::size_t slices) { return splat_far_start(slices) + 4u; }
+std::uint32_t region_size(std::uint32_t rounds, std::size_t slices) { return rounds_start(slices) + rounds * 4u * (static_cast<std::uint32_t>(slices) + 3u); }
 
 std::vector<std::uint32_t> background_words(gpu::Color c, std::uint32_t words) {
   const glm::vec4 v(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a));
@@ -70,6 +74,7 @@ void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t he
             .material = view.materials.empty() ? glm::vec4(0) : view.materials.front()};
   if (view.chunks.empty()) return;
 
+  list_splats(view);
   regions_.clear();
   arguments_.clear();
   for (const TileStep& step : plan_.steps) {
@@ -77,6 +82,8 @@ void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t he
     arguments_.resize(arguments_.size() + region_size(step.rounds, view.slices.size()), 1u);
     for (std::size_t i = regions_.back(); i < arguments_.size(); ++i)
       if (i < regions_.back() + 4u || i % 4 == 0 || i % 4 == 3) arguments_[i] = 0u; // (x, 1, 1, total)
+    for (std::size_t k = 0, start = 0; k < splats_.size(); start += splats_[k++]) arguments_[regions_.back() + 4u + splat_words * k + 4u] = static_cast<std::uint32_t>(start);
+    arguments_[regions_.back() + splat_far_start(view.slices.size()) + 1u] = plan_.tiles_y;
   }
   auto upload = [&](gpu::Buffer& buffer, std::string_view label, std::span<const std::byte> bytes) {
     reserve(buffer, label, bytes.size() + bytes.size() / 4, Usage::Storage | Usage::CopyDst | Usage::CopySrc);
@@ -87,6 +94,14 @@ void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t he
   upload(buffers_.materials, "tiles.materials", std::as_bytes(std::span(view.materials)));
   upload(buffers_.argument_template, "tiles.argument_template", std::as_bytes(std::span(arguments_)));
   flags_fresh_ = reserve(buffers_.flags, "tiles.flags", view.flags * 4ull, Usage::Storage | Usage::CopyDst);
+}
+
+// Chunks that are drawn by splats go to a list of their slice and side.
+void TileRenderer::list_splats(const TiledView& view) {
+  splats_.assign(view.slices.size() * splat_sides, 0);
+  for (const TileChunk& chunk : view.chunks)
+    if (chunk.side != 0) ++splats_[view.draws[chunk.draw].slice * splat_sides + chunk.side - 1u];
+  splats_alone_ = plan_.splats == view.chunks.size() && view.slices.size() == 1;
 }
 
 void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets) {
@@ -105,6 +120,8 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.active, "tiles.active", plan_.level1 * 4ull, storage);
   reserve(b.entries, "tiles.entries", (std::uint64_t{plan_.level1} * plan_.tile_room + 3ull * plan_.most_entries) * 4, storage);
   reserve(b.nearest, "tiles.nearest", pixels * 4, storage);
+  reserve(b.splats, "tiles.splats", plan_.splats != 0 ? pixels * 8 : 0, storage);
+  reserve(b.splat_lists, "tiles.splat_lists", plan_.splats * 4ull, storage);
   reserve(b.color, "tiles.color", pixels * color_words_ * 4, storage);
   reserve(b.unused_color, "tiles.unused_color", 0, storage);
   reserve(b.encoded, "tiles.encoded_depth", targets.encoded_depth ? pixels * 4 : 0, storage);
@@ -124,11 +141,18 @@ void TileRenderer::make_groups(const TiledView& view) {
     slice_groups_.push_back(group("tiles.slice", kernels_.slice_layout(), {&slice.records, &slice.rows, &slice.colors}));
   const Buffers& b = buffers_;
   binning_group_ = group("tiles.binning", kernels_.binning_layout(),
-                         {&b.chunks, &b.draws, &b.flags, &b.lists, &b.arguments, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries});
+                         {&b.chunks, &b.draws, &b.flags, &b.lists, &b.arguments, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.splats, &b.splat_lists});
   const bool narrow = color_words_ == 1;
   cast_group_ = group("tiles.cast", kernels_.cast_layout(),
                       {&b.materials, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.nearest,
                        narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color});
+  resolve_groups_.clear();
+  if (plan_.splats == 0) return;
+  splat_far_group_ = group("tiles.splat_far", kernels_.splat_far_layout(), {&b.splats, &b.nearest, &b.far});
+  for (const SliceBuffers& slice : view.slices)
+    resolve_groups_.push_back(group("tiles.resolve", kernels_.resolve_layout(),
+                                    {&b.materials, &slice.records, &slice.rows, &slice.colors, &b.chunks, &b.draws, &b.splats, &b.draws, &b.nearest,
+                                     narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color}));
 }
 
 void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& targets) {
@@ -139,6 +163,7 @@ void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& target
   tiles_fresh_ = false;
   encoder.clear_buffer(b.far, 0, 0, infinity_bits);
   encoder.clear_buffer(b.nearest, 0, std::uint64_t{block_.width} * block_.height * 4, std::bit_cast<std::uint32_t>(infinitely_far));
+  if (plan_.splats != 0) encoder.clear_buffer(b.splats, 0, std::uint64_t{block_.width} * block_.height * 8, std::bit_cast<std::uint32_t>(infinitely_far));
   if (flags_fresh_) encoder.clear_buffer(b.flags);
   if (targets.encoded_depth) encoder.clear_buffer(b.encoded);
   if (targets.depth) encoder.clear_buffer(b.depth, 0, 0, infinity_bits);
@@ -186,7 +211,7 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
     pass.set_bind_group(2, binning_group_);
     pass.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
   };
-  auto offset = [&](std::uint32_t round, std::uint32_t slot) { return (block.region + 4u + (round * (slices + 3u) + slot) * 4u) * 4ull; };
+  auto offset = [&](std::uint32_t round, std::uint32_t slot) { return (block.region + rounds_start(slices) + (round * (slices + 3u) + slot) * 4u) * 4ull; };
 
   gpu::ComputePass cull = encoder.begin_compute_pass({.label = "tiles.cull"});
   begin(cull, kernels_.kernel("cull"));
@@ -194,7 +219,9 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
   cull.end();
   mark("cull");
   encoder.copy_buffer_to_buffer(buffers_.arguments, block.region * 4ull, buffers_.indirect, block.region * 4ull, region_size(step.rounds, slices) * 4ull);
-  for (std::uint32_t round = 0; round < step.rounds; ++round) {
+  record_splats(encoder, block, frame_group, placed, mark);
+  const bool tiles = plan_.splats < view.chunks.size();
+  for (std::uint32_t round = 0; tiles && round < step.rounds; ++round) {
     block.round = round;
     block.others = (step.others ? 1u : 0u) | (first_ && round == 0 ? 0u : 2u);
     gpu::ComputePass place = encoder.begin_compute_pass({.label = "tiles.place"});
@@ -218,19 +245,73 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
     cast.set_pipeline(kernels_.cast(key, besides));
     cast.set_bind_group(0, frame_group);
     cast.set_bind_group(1, cast_group_);
-    if (targets.map && targets.map->group) cast.set_bind_group(rg::PixelMap::set, targets.map->group);
-    if (targets.shadows) cast.set_bind_group(besides.shadow_set(), targets.shadows->group());
+    set_shading_groups(cast, targets, besides);
     cast.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
     cast.dispatch_indirect(buffers_.indirect, offset(round, slices + 1));
     cast.end();
     mark(step.others ? "cast others" : "cast");
   }
   if (index + 1 == plan_.steps.size()) return;
+  record_splat_far(encoder, block, frame_group, placed.orthographic, mark);
   gpu::ComputePass far = encoder.begin_compute_pass({.label = "tiles.far"});
   begin(far, kernels_.kernel("far"));
   far.dispatch(groups(plan_.cells - plan_.level1));
   far.end();
   mark("far");
+}
+
+void TileRenderer::set_shading_groups(gpu::ComputePass& pass, const TileTargets& targets, const TileKernels::Besides& besides) const {
+  if (targets.map && targets.map->group) pass.set_bind_group(rg::PixelMap::set, targets.map->group);
+  if (targets.shadows) pass.set_bind_group(besides.shadow_set(), targets.shadows->group());
+}
+
+void TileRenderer::record_splats(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, const ParticlePipelineKey& placed, const Mark& mark) {
+  if (plan_.splats == 0) return;
+  gpu::ComputePass pass = encoder.begin_compute_pass({.label = "tiles.splat"});
+  for (std::uint32_t k = 0; k < splats_.size(); ++k) {
+    if (splats_[k] == 0) continue;
+    StepBlock own = block;
+    own.slice = k / splat_sides;
+    pass.set_pipeline(kernels_.splat(placed, k % splat_sides + 1u));
+    pass.set_bind_group(0, frame_group);
+    pass.set_bind_group(1, slice_groups_[own.slice]);
+    pass.set_bind_group(2, binning_group_);
+    pass.set_push_constants(0, std::as_bytes(std::span(&own, 1)));
+    pass.dispatch_indirect(buffers_.indirect, (block.region + 4u + splat_words * k) * 4ull);
+  }
+  pass.end();
+  mark("splat");
+}
+
+void TileRenderer::record_splat_far(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, bool orthographic, const Mark& mark) {
+  if (plan_.splats == 0) return;
+  gpu::ComputePass pass = encoder.begin_compute_pass({.label = "tiles.splat_far"});
+  pass.set_pipeline(kernels_.splat_far(orthographic, splats_alone_));
+  pass.set_bind_group(0, frame_group);
+  pass.set_bind_group(1, splat_far_group_);
+  pass.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
+  pass.dispatch_indirect(buffers_.indirect, (block.region + splat_far_start(slice_groups_.size())) * 4ull);
+  pass.end();
+  mark("splat far");
+}
+
+void TileRenderer::resolve_splats(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const CastKey& key, const TileTargets& targets, const Mark& mark) {
+  const TileKernels::Besides besides{targets.map, targets.shadows, targets.cache_directory};
+  for (std::uint32_t k = 0; k < resolve_groups_.size(); ++k) {
+    const auto first = splats_.begin() + k * splat_sides;
+    if (std::all_of(first, first + splat_sides, [](std::uint32_t count) { return count == 0; })) continue;
+    StepBlock block = block_;
+    block.slice = k;
+    gpu::ComputePass pass = encoder.begin_compute_pass({.label = "tiles.resolve"});
+    pass.set_pipeline(kernels_.resolve_splats(key, besides, splats_alone_));
+    pass.set_bind_group(0, frame_group);
+    pass.set_bind_group(1, resolve_groups_[k]);
+    set_shading_groups(pass, targets, besides);
+    pass.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
+    pass.dispatch(block.tiles_x, block.tiles_y);
+    pass.end();
+    mark("resolve splats");
+  }
 }
 
 void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& targets) {
@@ -251,7 +332,7 @@ void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& tar
 void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& drawing,
                           const TileTargets& targets, const Mark& mark) {
   color_words_ = targets.color ? words_of(targets.color.format()) : targets.casters ? 4 : 0;
-  CastKey key{.drawing = drawing_of(drawing, targets), .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
+  const CastKey key{.drawing = drawing_of(drawing, targets), .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
               .display_only = color_words_ == 1 && !targets.depth && !targets.id && !targets.normal && !targets.encoded_depth && drawing.phase == Phase::Opaque,
               .color_words = color_words_,
               .pixel_map = targets.map ? targets.map->id : std::string(), .shadows = targets.shadows ? targets.shadows->key() : TileShadows::Key{}};
@@ -266,6 +347,7 @@ void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, c
     first_ = false;
   }
   flags_fresh_ = false;
+  resolve_splats(encoder, frame_group, key, targets, mark);
   copy_out(encoder, targets);
   mark("copy");
 }

@@ -46,11 +46,16 @@ public:
 private:
   struct Buffers {
     gpu::Buffer chunks{}, draws{}, materials{}, flags{}, lists{}, arguments{}, argument_template{}, indirect{}, payloads{}, colors{}, ids{}, tiles{},
-        far{}, active{}, entries{}, nearest{}, color{}, unused_color{}, background{}, encoded{}, depth{}, id{}, normal{};
+        far{}, active{}, entries{}, nearest{}, splats{}, splat_lists{}, color{}, unused_color{}, background{}, encoded{}, depth{}, id{}, normal{};
   };
   bool reserve(gpu::Buffer& buffer, std::string_view label, std::uint64_t bytes, gpu::BufferUsage usage);
   void reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets);
   void make_groups(const TiledView& view);
+  void list_splats(const TiledView& view);
+  void record_splats(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, const ParticlePipelineKey& placed, const Mark& mark);
+  void record_splat_far(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, bool orthographic, const Mark& mark);
+  void resolve_splats(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const CastKey& key, const TileTargets& targets, const Mark& mark);
+  void set_shading_groups(gpu::ComputePass& pass, const TileTargets& targets, const TileKernels::Besides& besides) const;
   void clear(gpu::CommandEncoder& encoder, const TileTargets& targets);
   void record_step(gpu::CommandEncoder& encoder, std::size_t index, const TiledView& view, const gpu::BindGroup& frame_group, const CastKey& key,
                    const TileTargets& targets, const Mark& mark);
@@ -63,8 +68,10 @@ private:
   std::vector<std::uint32_t> arguments_{}, regions_{}; // the template of all steps' arguments; where each step's start
   std::vector<TileChunk> scratch_{};
   StepBlock block_{};
-  std::vector<gpu::BindGroup> slice_groups_{};
-  gpu::BindGroup binning_group_{}, cast_group_{};
+  std::vector<gpu::BindGroup> slice_groups_{}, resolve_groups_{};
+  std::vector<std::uint32_t> splats_{}; // chunks drawn by splats, for each slice and side
+  bool splats_alone_{};                 // nothing is cast, and there is one slice
+  gpu::BindGroup binning_group_{}, cast_group_{}, splat_far_group_{};
   std::vector<std::uint32_t> background_words_{};
   std::uint32_t color_words_{2};
   bool first_{}; // nothing was cast before in the frame that is being recorded

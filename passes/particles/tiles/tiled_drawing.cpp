@@ -30,7 +30,9 @@ const Scene& TiledDrawing::selected(const Scene& scene, const Selection& selecti
 bool TiledDrawing::place(gpu::Device device, const ParticleStore& store, const gpu::BindGroupLayout& frame, const TileWish& wish) {
   const Scene& scene = selected(wish.scene, wish.selection);
   const std::string type = wish.type.empty() ? type_of_most(scene) : wish.type;
-  store.place_tiles(scene, wish.view, type, wish.placing, tiled_, wish.slot);
+  TilePlacing placing = wish.placing;
+  placing.splats = TileKernels::splats(device, type);
+  store.place_tiles(scene, wish.view, type, placing, tiled_, wish.slot);
   if (tiled_.chunks.empty()) return false;
   if (!tiles_) tiles_ = std::make_unique<TileRenderer>(std::move(device), frame);
   tiles_->update(tiled_, wish.view.size.width, wish.view.size.height);

@@ -18,6 +18,7 @@ layout(std430, set = 2, binding = 9) buffer Far { float far[]; };          // fa
 layout(std430, set = 2, binding = 10) buffer Active { uint active_tiles[]; };
 layout(std430, set = 2, binding = 11) buffer Entries { uint entries[]; };   // tile_room a tile, then those of the list in tile order; then the
                                                                             // list itself, two words each: tile and place
+layout(std430, set = 2, binding = 13) buffer SplatLists { uint splat_lists[]; }; // placed chunks taken, by slice and side
 
 uint level_start(uint level) { return level == 0u ? 0u : level == 1u ? step.level1 : level == 2u ? step.level2 : step.level3; }
 

@@ -1,34 +1,18 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Brings the particles of a round's chunks into view space and files them under the tiles they may cover.
-// One workgroup a chunk, and one subgroup a workgroup: what is the same for all particles is loaded once, word by word, one
-// word a lane, and handed round; then every invocation takes one particle after the other.
+// One workgroup a chunk (chunk.glsl), every invocation takes one particle after the other.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "particles/interface.glsl"
-#include "particles/tiles/binning.glsl"
+#include "particles/tiles/chunk.glsl"
 
 layout(local_size_x = LANES) in;
 
 layout(constant_id = 11) const bool want_ids = false;
 layout(constant_id = 12) const bool first_round = false; // nothing was cast before in this frame
 layout(constant_id = 17) const bool first_slice = false;
-
-layout(std430, set = 1, binding = 0) readonly buffer Records { PAIR records[]; };
-layout(std430, set = 1, binding = 1) readonly buffer Rows { uint rows[]; };
-layout(std430, set = 1, binding = 2) readonly buffer FileColors { uint colors[]; };
-
-// Eight words that start at `base`, the same for the whole subgroup.
-#define WORD(k) w[k] = subgroupShuffle(own, uint(k));
-#define WORDS(buffer_words, base) { \
-  uint own = buffer_words[(base) + (gl_SubgroupInvocationID & (LANES >= 8 ? 7u : 3u))]; \
-  WORD(0) WORD(1) WORD(2) WORD(3) \
-  if (LANES < 8) own = buffer_words[(base) + 4u + (gl_SubgroupInvocationID & 3u)]; \
-  w[4] = subgroupShuffle(own, LANES < 8 ? 0u : 4u); \
-  w[5] = subgroupShuffle(own, LANES < 8 ? 1u : 5u); \
-  w[6] = subgroupShuffle(own, LANES < 8 ? 2u : 6u); \
-  w[7] = subgroupShuffle(own, LANES < 8 ? 3u : 7u); }
 
 // Chunks of the same round in earlier slices: their particles come first.
 uint chunks_before() {
@@ -61,24 +45,10 @@ uvec4 tile_rect(Taken u, Proxy bounds) {
 
 uint level_of(uint span) { return span <= 2u ? 0u : span <= 8u ? 1u : span <= 32u ? 2u : 3u; }
 
-struct Chunk {
-  Placement at;
-  uvec2 rect_lo, rect_hi; // tiles
-  uint first, place;      // of its records, and of its particles in the round
-  uint id_base, material;
-  vec3 color;
-  bool colored;
-};
-
 // Record `lane` of a chunk: placed, kept for the cast, and filed.
 void place_particle(Taken u, Chunk chunk, uint lane) {
   uint slot = chunk.first + lane, at = chunk.place + lane;
-  vec4 record[record_vec4s];
-  for (int i = 0; i < record_vec4s; ++i) {
-    uint from = 2u * (slot * uint(record_vec4s) + uint(i));
-    record[i] = uintBitsToFloat(uvec4(words(records[from]), words(records[from + 1u])));
-  }
-  Particle particle = place(record, chunk.at);
+  Particle particle = place_record(slot, chunk.at);
   Proxy bounds = tile_proxy(particle);
   uvec4 rect = tile_rect(u, bounds);
   // What was reserved is the chunk's rectangle; rounding never leads out of it.
@@ -117,24 +87,7 @@ void place_particle(Taken u, Chunk chunk, uint lane) {
 
 void main() {
   uint chunk_at = gl_WorkGroupID.x;
-  uint w[8];
-  Chunk chunk;
-  WORDS(chunks, lists[list_at(step.round, step.slice) + chunk_at] * chunk_words)
-  chunk.at.origin = uintBitsToFloat(uvec3(w[0], w[1], w[2]));
-  chunk.rect_lo = corner(w[4]);
-  chunk.rect_hi = corner(w[5]);
-  chunk.first = w[6] * chunk_capacity;
-  uint draw = w[7] * draw_words;
-  WORDS(draws, draw)
-  chunk.at.linear[0] = uintBitsToFloat(uvec3(w[0], w[1], w[2]));
-  chunk.at.linear[1] = uintBitsToFloat(uvec3(w[4], w[5], w[6]));
-  chunk.at.scale = uintBitsToFloat(w[3]);
-  chunk.id_base = w[7];
-  WORDS(draws, draw + 8u)
-  chunk.at.linear[2] = uintBitsToFloat(uvec3(w[0], w[1], w[2]));
-  chunk.color = uintBitsToFloat(uvec3(w[4], w[5], w[6]));
-  chunk.material = w[7] & 0xFFFFu;
-  chunk.colored = (w[7] >> 31) != 0u;
+  Chunk chunk = load_chunk(lists[list_at(step.round, step.slice) + chunk_at]);
   chunk.place = (chunks_before() + chunk_at) * chunk_capacity;
   Taken u = take();
   uint lane = gl_LocalInvocationID.x;

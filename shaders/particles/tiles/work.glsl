@@ -6,6 +6,10 @@
 // `tile_room` places of its own; what does not fit goes to a list, for which room is made (allocate) and which is filed in
 // a second go (scatter). Then each tile is cast (cast). Between steps the farthest depth of every tile, and of blocks of
 // tiles, hides what lies behind (far).
+//
+// Chunks whose particles all cover at most three pixel centers in x and in y are not filed: each of their particles writes
+// itself where it is nearest (splat), with atomic minima of 64 bits, and what stands at the frame's end is shaded then
+// (resolve_splats). Before other chunks are tested, tiles learn how far the splats in them reach (splat_far).
 #ifndef MOTE_TILES_WORK_GLSL
 #define MOTE_TILES_WORK_GLSL
 
@@ -45,7 +49,8 @@ layout(push_constant) uniform StepBlock {
 
 // Words of a placed chunk, a chunk of one instance that the view may see:
 //   0..2 origin in view space, formed in double; 3 z_min, nothing of it is nearer; 4, 5 the tiles it may cover, lo and hi
-//   (corner() of each; bits 24..31: tiles that one of its particles may cover in x, y); 6 its index in its slice; 7 its draw
+//   (corner() of each; bits 24..31: tiles that one of its particles may cover in x, y); 6 its index in its slice; 7 its draw and, in
+//   bits 30 and 31, the pixels that one of its particles may cover in x or y if it is drawn by splats, else 0
 const uint chunk_words = 8u;
 // Words of a draw, one for each (batch, instance, slice):
 //   0..2 linear0, 3 scale, 4..6 linear1, 7 id_base, 8..10 linear2, 11 first_flag, 12..14 color,
@@ -56,8 +61,18 @@ const uint draw_words = 16u;
 uvec2 corner(uint packed_xy) { return uvec2(packed_xy & 0xFFFu, (packed_xy >> 12) & 0xFFFu); }
 uint pack_corner(uvec2 tile) { return tile.x | tile.y << 12; }
 
+uint draw_of(uint word) { return (word & 0x3FFFFFFFu) * draw_words; } // word 7 of a chunk: where its draw's words start
+uint splat_side(uint word) { return word >> 30; }
+
+// The arguments of splats: (workgroups, 1, 1, chunks on the list, where the list starts, and 3 words without use) for each
+// slice and side of 1 to 3 pixels.
+const uint splat_words = 8u, splat_sides = 3u;
+uint splat_arguments(uint slice, uint side) { return step.region + 4u + splat_words * (slice * splat_sides + side - 1u); }
+const uint most_splat_groups = 16384u; // each takes one chunk after the other
+// Of splat_far: (tiles in x, in y, 1, 0), no workgroups in x until so many splats were taken that it is worth its time.
+uint splat_far_arguments() { return step.region + 4u + splat_words * splat_sides * step.slices; }
 // Where the arguments of a round start: (x, 1, 1, 0) for each slice's place, for allocate, for cast, for scatter.
-uint round_arguments(uint round) { return step.region + 4u + round * 4u * (step.slices + 3u); }
+uint round_arguments(uint round) { return splat_far_arguments() + 4u + round * 4u * (step.slices + 3u); }
 uint slice_arguments(uint round, uint slice) { return round_arguments(round) + 4u * slice; }
 uint allocate_arguments(uint round) { return round_arguments(round) + 4u * step.slices; }
 uint cast_arguments(uint round) { return round_arguments(round) + 4u * (step.slices + 1u); }
@@ -77,5 +92,6 @@ uint depth_step(float z, float origin, float scale) { return uint(clamp((z - ori
 uint place_of(uint entry) { return entry & ((1u << place_bits) - 1u); }
 
 const uint no_particle = 0xFFFFFFFFu;
+const float infinitely_far = 3e38; // keys of pixels without a particle: depth times |ray|^2
 
 #endif

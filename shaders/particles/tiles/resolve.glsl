@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Shades what won a pixel, or leaves it as a surface to be shaded later, or as the caster of a shadow map's texel: what
+// tiles (cast.comp) and splats (resolve_splats.comp) end with.
+#ifndef MOTE_TILES_RESOLVE_GLSL
+#define MOTE_TILES_RESOLVE_GLSL
+
+#ifdef SHADOW_SET
+#include "shadow/lit.glsl"
+Lit lit = all_lit(); // at the surface that is being shaded
+#define LIGHT_VISIBILITY(i) lit_by(lit, i)
+#endif
+#include "common/shading.glsl"
+
+#ifdef PIXEL_MAP
+#extension GL_EXT_samplerless_texture_functions : require
+#include "pixel_map.glsl" // made at run time: vec4 map_pixel(vec4), the display transform that would come next
+#else
+vec4 map_pixel(vec4 color) { return color; }
+#endif
+
+layout(constant_id = 10) const uint aovs = 0u;           // bits: 1 depth, 2 id, 4 normal
+layout(constant_id = 13) const bool one_material = true; // of all batches: StepBlock.material
+layout(constant_id = 14) const uint color_words = 2u;    // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float; 0: no color
+layout(constant_id = 15) const bool want_depth = false;  // the encoded depth, for passes that draw after this one
+layout(constant_id = 8) const uint type_number = 0u;     // phase shadow: the type, as a map of casters says it
+layout(constant_id = 18) const int phase = 0;            // 0 opaque, 1 surface, 3 shadow, as in phase/surface.frag and phase/shadow.frag
+layout(constant_id = 16) const bool display_only = false; // colors of 8 bits are all that is asked for: normals may err by 1e-4
+
+bool want_id() {
+#ifdef SHADOW_SET
+  return true; // no particle shadows itself
+#else
+  if (phase == 1) return true; // one || of all three: glslang makes a constant of what is none
+  if (phase == 3) return color_words != 0u;
+  return (aovs & 2u) != 0u;
+#endif
+}
+
+layout(std430, set = 1, binding = 0) readonly buffer Materials { vec4 materials[]; };
+layout(std430, set = 1, binding = 8) buffer Keys { float nearest[]; };       // per pixel: view depth times |ray|^2
+layout(std430, set = 1, binding = 9) writeonly buffer OutColor { uint out_color[]; };       // rgba8unorm
+layout(std430, set = 1, binding = 10) writeonly buffer OutEncoded { float out_encoded[]; };
+layout(std430, set = 1, binding = 11) writeonly buffer OutDepth { float out_depth[]; };
+layout(std430, set = 1, binding = 12) writeonly buffer OutId { uint out_id[]; };
+layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { vec4 out_normal[]; }; // surface: and depth; shadow: payload
+layout(std430, set = 1, binding = 14) writeonly buffer OutColorPairs { PAIR out_color_pairs[]; }; // the wider formats
+
+void write_color(uint at, vec4 color) {
+  if (color_words == 1u) {
+    // The shuffle keeps the packing out of the store's loop over lanes.
+    out_color[at] = subgroupShuffle(packUnorm4x8(color), gl_SubgroupInvocationID);
+  } else if (color_words == 2u) {
+    out_color_pairs[at] = pair(uvec2(packHalf2x16(color.rg), packHalf2x16(color.ba)));
+  } else {
+    out_color_pairs[2u * at] = pair(floatBitsToUint(color.rg));
+    out_color_pairs[2u * at + 1u] = pair(floatBitsToUint(color.ba));
+  }
+}
+
+// Uniform values that every pixel needs, taken once.
+struct Taken {
+  uint width;
+  vec4 viewport, sample_near_far, material;
+  float inverse_rest;
+  vec3 ambient, head_light; // times the material, with one_material
+#ifdef SHADOW_SET
+  LightMap map0, map1, map2, map3;
+#endif
+};
+Taken take() {
+  Taken u;
+  u.width = step.width;
+  u.viewport = frame.viewport;
+  u.sample_near_far = frame.sample_near_far;
+  u.inverse_rest = frame.depth_near.y;
+  u.material = step.material;
+  u.ambient = (one_material ? u.material.x : 1.0) * frame.ambient.rgb;
+  u.head_light = (one_material ? u.material.y : 1.0) * frame.lights[0].strength.rgb;
+#ifdef SHADOW_SET
+  if (shadow_maps > 0) u.map0 = take_map(0);
+  if (shadow_maps > 1) u.map1 = take_map(1);
+  if (shadow_maps > 2) u.map2 = take_map(2);
+  if (shadow_maps > 3) u.map3 = take_map(3);
+#endif
+  return u;
+}
+
+// What a pixel shows.
+struct Winner {
+  Particle particle;
+  vec3 color;
+  uint material, id; // id: with want_id() only
+};
+
+// The surface at one pixel, shaded; written where `changed`. `quick`: the ray's x, y to visibility's precision.
+void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Winner winner) {
+  uint at = pixel.y * u.width + pixel.x;
+  Particle particle = winner.particle;
+  vec3 own = winner.color;
+  Ray ray = orthographic ? Ray(vec3(quick, 0.0), vec3(0.0, 0.0, 1.0)) : Ray(vec3(0.0), vec3(quick, 1.0));
+  float t;
+  vec3 normal;
+  if (display_only) {
+    t = pixel_key / dot(ray.direction, ray.direction);
+    normal = normal_at(ray, particle, t);
+  } else {
+    ray = ray_through(vec2(pixel), u.sample_near_far.xy, u.viewport.w, u.inverse_rest);
+    Interval hit;
+    intersect(ray, particle, hit);
+    normal = outward_normal(ray, particle, hit, false);
+    t = hit.t_in;
+  }
+  vec4 material = u.material;
+  if (!one_material) material = materials[winner.material];
+  vec3 color = own;
+  if (phase != 0) {
+    if (!changed) return;
+    nearest[at] = pixel_key;
+    if (want_depth) out_encoded[at] = encode_depth(t);
+    if (phase == 1) {
+      write_color(at, vec4(own, float(winner.material)));
+      out_id[at] = winner.id;
+      out_normal[at] = vec4(normal, t);
+    } else if (color_words != 0u) {
+      vec4 payload[payload_vec4s];
+      pack(particle, payload);
+      out_normal[at] = payload[0];
+      out_color_pairs[2u * at] = pair(uvec2(winner.id, type_number));
+    }
+    return;
+  }
+  if (head_light_only) {
+    vec3 ambient = one_material ? u.ambient : material.x * u.ambient, light = one_material ? u.head_light : material.y * u.head_light;
+    color = own * (ambient + max(-normal.z, 0.0) * light);
+  } else {
+#ifdef SHADOW_SET
+    vec3 position = ray.origin + t * ray.direction;
+    if (shadow_maps > 0) lit.map0 = light_past(u.map0, casters0, (orthographic_maps & 1) != 0, winner.id, position);
+    if (shadow_maps > 1) lit.map1 = light_past(u.map1, casters1, (orthographic_maps & 2) != 0, winner.id, position);
+    if (shadow_maps > 2) lit.map2 = light_past(u.map2, casters2, (orthographic_maps & 4) != 0, winner.id, position);
+    if (shadow_maps > 3) lit.map3 = light_past(u.map3, casters3, (orthographic_maps & 8) != 0, winner.id, position);
+#endif
+    color = shade(Surface(ray.origin + t * ray.direction, normal, -normalize(ray.direction)), own, material);
+  }
+  if (!changed) return;
+  nearest[at] = pixel_key;
+  write_color(at, map_pixel(vec4(color, 1.0)));
+  if (want_depth) out_encoded[at] = encode_depth(t);
+  if ((aovs & 1u) != 0u) out_depth[at] = t;
+  if ((aovs & 2u) != 0u) out_id[at] = winner.id;
+  if ((aovs & 4u) != 0u)
+    out_normal[at] = vec4(normal.x * frame.world_from_view0.xyz + normal.y * frame.world_from_view1.xyz + normal.z * frame.world_from_view2.xyz, 0.0);
+}
+
+#endif
