@@ -34,6 +34,7 @@ inline constexpr std::string_view shadows_ignored = "A021";
 inline constexpr std::string_view tolerance_ignored = "A022";
 inline constexpr std::string_view movie = "A023";
 inline constexpr std::string_view no_counts = "A024";
+inline constexpr std::string_view over_memory = "A025";
 inline constexpr std::string_view chart_topic = "A030";
 inline constexpr std::string_view bad_costs = "A040";
 inline constexpr std::string_view no_cache = "A041";
@@ -44,7 +45,7 @@ inline constexpr std::string_view script = "A051";
 struct AppCode {
   std::string_view code{}, line{};
 };
-inline constexpr std::array<AppCode, 29> app_codes{{
+inline constexpr std::array<AppCode, 30> app_codes{{
     {code::command_line, "usage: an unknown option, a missing argument, words that do not fit together"},
     {code::size, "usage: --size is not WIDTHxHEIGHT, each from 1 to 32768"},
     {code::output_ending, "usage: an output file of an ending that cannot be written"},
@@ -69,6 +70,7 @@ inline constexpr std::array<AppCode, 29> app_codes{{
     {code::tolerance_ignored, "warning: the tolerance is not used"},
     {code::movie, "failed: a movie cannot be made (ffmpeg is missing or failed)"},
     {code::no_counts, "warning: the device does not count what pipelines do"},
+    {code::over_memory, "failed: --memory cannot hold the scene"},
     {code::chart_topic, "usage: there is no topic of that name for a chart"},
     {code::bad_costs, "warning: the measured costs of the device cannot be read; shipped ones serve"},
     {code::no_cache, "failed: there is no folder for caches, where calibrate keeps what it measured"},

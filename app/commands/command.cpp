@@ -26,6 +26,7 @@ void add_scene_arguments(CLI::App& command, SceneArguments& a) {
 
 void add_device_arguments(CLI::App& command, DeviceArguments& a) {
   command.add_option("--device", a.device.name, "part of a Vulkan device's name")->type_name("NAME");
+  command.add_option("--memory", a.device.memory, "memory that particles and pictures may take, like 512M or 4G")->transform(CLI::AsSizeValue(false))->type_name("SIZE");
   command.add_flag("--validation", a.device.validation, "run with the Vulkan validation layer; its messages are failures");
   command.add_option("--ocio", a.display.config, "OpenColorIO config instead of $OCIO or the shipped one")->type_name("FILE");
   command.add_option("--display", a.display.display, "display of the color config")->type_name("NAME");

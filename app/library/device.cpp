@@ -21,10 +21,11 @@ DrawingDevice::DrawingDevice(const DeviceOptions& options) : errors_(std::make_s
   if (!instance_) give_up();
   adapter_ = instance_.request_adapter({.name = options.name}, error);
   if (!adapter_) give_up();
-  const gpu::Feature wanted = gpu::Feature::GeometryShader | gpu::Feature::TimestampQuery | gpu::Feature::Subgroups | gpu::Feature::ShaderInt64 | gpu::Feature::Int64Atomics |
+  const gpu::Feature wanted = gpu::Feature::GeometryShader | gpu::Feature::TimestampQuery | gpu::Feature::Subgroups | gpu::Feature::ShaderInt64 |
+                              gpu::Feature::Int64Atomics | gpu::Feature::HostMemory |
                               gpu::Feature::PipelineStatistics | gpu::Feature::ShaderFloat64; // the last for charts only
   const std::string cache = cache_directory();
-  device_ = adapter_.request_device({.label = "mote", .required_features = wanted & adapter_.features(), .cache_directory = cache}, error);
+  device_ = adapter_.request_device({.label = "mote", .required_features = wanted & adapter_.features(), .cache_directory = cache, .memory_budget = options.memory}, error);
   if (!device_) give_up();
   device_.on_uncaptured_error([errors = errors_](const gpu::Error& e) { errors->push_back(e); });
 }

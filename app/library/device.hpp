@@ -14,6 +14,7 @@ namespace mote::app {
 
 struct DeviceOptions {
   std::string name{}; // part of the device's name; empty: $MOTE_ADAPTER, else the fastest kind there is
+  std::uint64_t memory{}; // bytes that buffers and textures may have; 0: what there is
   bool validation{};  // Khronos validation layer; its messages are collected
   std::vector<const char*> surface_extensions{}; // of the window system, for a device that shows pictures in a window
 };

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace mote::app {
 
@@ -37,8 +38,28 @@ void FrameRenderer::count_work() {
   if (!executor_.set_counts(true)) report_.warning(code::no_counts, {"--stats"}, fmt::format("{} does not count what pipelines do", device_.info().name));
 }
 
+namespace {
+// What the particles of a scene take on a device.
+std::uint64_t particle_bytes(const Scene& scene) {
+  std::set<const ChunkSet*> known;
+  std::uint64_t bytes = 0;
+  for (const Batch& batch : scene.batches)
+    if (const ChunkSet& set = *batch.chunks; known.insert(&set).second)
+      bytes += set.records.size() * sizeof(set.records[0]) + (set.rows.size() + set.colors.size()) * sizeof(set.rows[0]);
+  return bytes;
+}
+} // namespace
+
+void FrameRenderer::check_memory(const Scene& scene) {
+  const std::uint64_t budget = device_.device().memory().budget, needed = particle_bytes(scene);
+  if (budget != 0 && needed > budget)
+    fail(Exit::Failed, code::over_memory, {"--memory"},
+         fmt::format("the particles of the scene need {:.1f} MiB, pictures come on top; allowed are {:.1f} MiB", static_cast<double>(needed) / 1048576.0, static_cast<double>(budget) / 1048576.0));
+}
+
 void FrameRenderer::set_scene(const Scene& scene) {
   scene_ = &scene;
+  check_memory(scene);
   store_->upload(scene);
   device_.check();
 }

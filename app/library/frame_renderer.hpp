@@ -73,6 +73,7 @@ public:
   FrameRenderer& operator=(const FrameRenderer&) = delete;
 
 private:
+  void check_memory(const Scene& scene); // throws Failure A025
   void name_choices();
   [[nodiscard]] std::vector<float> read_floats(const std::string& source); // RGBA
 

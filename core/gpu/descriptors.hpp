@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,11 +48,16 @@ struct DeviceDescriptor {
   bool fill_new_memory{};            // tests: fresh buffers and textures hold a loud value, never zeros
 };
 
+constexpr std::uint64_t host_page = 4096; // bytes
 struct BufferDescriptor {
   std::string_view label{};
   std::uint64_t size{};              // bytes, > 0
   BufferUsage usage{};
   std::span<const std::byte> contents{}; // optional first contents; its size <= size; needs no CopyDst
+  // Of the memory that `contents` lie in. With Feature::HostMemory, and where they fill the buffer and start at a multiple of
+  // host_page bytes, the buffer *is* that memory and keeps it alive; it must be readable up to the
+  // next such multiple, and nobody may change it. Otherwise contents are copied, as without an owner.
+  std::shared_ptr<const void> contents_owner{};
 };
 
 struct TextureDescriptor {

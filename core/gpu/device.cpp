@@ -87,13 +87,15 @@ void create_device(DeviceCore& core, Feature asked) {
   queue.queueFamilyIndex = core.adapter->queue_family;
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
-  const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+  std::vector<const char*> extensions;
+  if (core.adapter->instance->surface) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (has(asked, Feature::HostMemory)) extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
   VkDeviceCreateInfo info = vk::init<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
   info.pNext = &features.base;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  info.enabledExtensionCount = core.adapter->instance->surface ? 1 : 0;
-  info.ppEnabledExtensionNames = &swapchain;
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   const VkResult result = vkCreateDevice(core.adapter->physical, &info, nullptr, &core.device);
   if (result != VK_SUCCESS) core.device = VK_NULL_HANDLE;
   check(result, "vkCreateDevice");

@@ -88,9 +88,9 @@ std::string_view to_string(DeviceType type) {
 }
 
 std::string to_string(Feature set) {
-  static constexpr std::array<std::string_view, 8> names{"GeometryShader", "TimestampQuery", "PipelineStatistics",
+  static constexpr std::array<std::string_view, 9> names{"GeometryShader", "TimestampQuery", "PipelineStatistics",
                                                          "ShaderFloat64",  "ShaderInt64",    "Int64Atomics",
-                                                         "Subgroups",      "DepthClamp"};
+                                                         "Subgroups",      "DepthClamp",     "HostMemory"};
   return join(set, names);
 }
 std::string to_string(BufferUsage set) {

@@ -39,6 +39,7 @@ enum class Feature : std::uint32_t {
   Int64Atomics = 32, // on storage buffers
   Subgroups = 64,    // basic + vote + ballot + arithmetic + broadcast in compute; no size is promised
   DepthClamp = 128,
+  HostMemory = 256,  // buffers may lie in the caller's memory; offered by drivers that draw on the processor only
 };
 template <> struct IsFlags<Feature> : std::true_type {};
 

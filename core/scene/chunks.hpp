@@ -8,6 +8,7 @@
 // [64 c, 64 c + count); unused places hold radius 0 and draw as nothing.
 #pragma once
 
+#include "core/base/pages.hpp"
 #include "core/math/camera.hpp"
 
 #include <glm/glm.hpp>
@@ -30,9 +31,9 @@ struct Chunk {
 
 struct ChunkSet {
   std::uint32_t vec4s_per_record{1};
-  std::vector<glm::vec4> records{};   // chunks.size() * 64 * vec4s_per_record
-  std::vector<std::uint32_t> rows{};  // per record: row in the file, or no_row
-  std::vector<std::uint32_t> colors{}; // per record: sRGB-encoded straight RGBA, 8 bits each, R lowest; empty: the batch's color
+  PageVector<glm::vec4> records{};    // chunks.size() * 64 * vec4s_per_record
+  PageVector<std::uint32_t> rows{};   // per record: row in the file, or no_row
+  PageVector<std::uint32_t> colors{}; // per record: sRGB-encoded straight RGBA, 8 bits each, R lowest; empty: the batch's color
   std::vector<Chunk> chunks{};
   Bounds bounds{};                    // of all particles with radii, data set space
   [[nodiscard]] std::uint64_t record_count() const { return chunks.size() * std::uint64_t{chunk_capacity}; }

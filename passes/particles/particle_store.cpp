@@ -58,8 +58,8 @@ struct ParticleStore::Impl {
   };
   std::map<std::uint32_t, Placements> placements;
 
-  gpu::Buffer storage(std::string_view label, std::span<const std::byte> contents) {
-    return device.create_buffer({.label = label, .size = contents.size(), .usage = gpu::BufferUsage::Storage, .contents = contents});
+  gpu::Buffer storage(std::string_view label, std::span<const std::byte> contents, const std::shared_ptr<const void>& owner = {}) {
+    return device.create_buffer({.label = label, .size = contents.size(), .usage = gpu::BufferUsage::Storage, .contents = contents, .contents_owner = owner});
   }
   Resident make_resident(const std::shared_ptr<const ChunkSet>& set);
   gpu::BindGroup group_for(Placements& placed, const Slice& slice);
@@ -85,18 +85,21 @@ ParticleStore::~ParticleStore() = default;
 const gpu::BindGroupLayout& ParticleStore::layout() const { return impl_->layout; }
 ShadowMaps& ParticleStore::shadow_maps() const { return impl_->shadow_maps; }
 
+static_assert(page_bytes % gpu::host_page == 0);
 Resident ParticleStore::Impl::make_resident(const std::shared_ptr<const ChunkSet>& set) {
   Resident resident{set, {}};
   const std::uint64_t chunk_bytes = std::uint64_t{chunk_capacity} * set->vec4s_per_record * sizeof(glm::vec4);
-  const std::uint64_t chunks_per_slice = std::max<std::uint64_t>(1, device.limits().max_storage_buffer_binding_size / chunk_bytes);
+  // Slices start at pages of memory: a device on the processor then has no copy of its own.
+  const std::uint64_t chunks_per_page = page_bytes / (chunk_capacity * sizeof(std::uint32_t)), most = device.limits().max_storage_buffer_binding_size / chunk_bytes;
+  const std::uint64_t chunks_per_slice = std::max(chunks_per_page, most / chunks_per_page * chunks_per_page);
   for (std::uint64_t first = 0; first < set->chunks.size(); first += chunks_per_slice) {
     Slice slice;
     slice.first_chunk = first;
     slice.chunk_count = std::min<std::uint64_t>(chunks_per_slice, set->chunks.size() - first);
     const std::uint64_t record = first * chunk_capacity, count = slice.chunk_count * chunk_capacity;
-    slice.records = storage("particles.records", bytes_of(std::span(set->records).subspan(record * set->vec4s_per_record, count * set->vec4s_per_record)));
-    slice.rows = storage("particles.rows", bytes_of(std::span(set->rows).subspan(record, count)));
-    slice.colors = set->colors.empty() ? nothing : storage("particles.colors", bytes_of(std::span(set->colors).subspan(record, count)));
+    slice.records = storage("particles.records", bytes_of(std::span(set->records).subspan(record * set->vec4s_per_record, count * set->vec4s_per_record)), set);
+    slice.rows = storage("particles.rows", bytes_of(std::span(set->rows).subspan(record, count)), set);
+    slice.colors = set->colors.empty() ? nothing : storage("particles.colors", bytes_of(std::span(set->colors).subspan(record, count)), set);
     resident.slices.push_back(std::move(slice));
   }
   return resident;

@@ -52,6 +52,40 @@ TEST_F(MemoryTest, fresh_memory_is_loud) {
   EXPECT_THAT(values_of<float>(device.read_texture(target(TextureFormat::Depth32Float, 4, 4))), Each(0.7734375f));
 }
 
+// A buffer that is the caller's memory: a change there, which only a test may make, is seen; nothing was copied; the owner is kept.
+TEST_F(MemoryTest, a_buffer_may_lie_in_the_callers_memory) {
+  if (!has(adapter().features(), Feature::HostMemory)) GTEST_SKIP() << "the driver takes no memory of the caller";
+  device = make_device({.required_features = Feature::HostMemory, .fill_new_memory = true});
+  const std::uint64_t held = device.memory().bytes;
+  auto owner = std::shared_ptr<std::uint32_t>(static_cast<std::uint32_t*>(std::aligned_alloc(host_page, 3 * host_page)), [](void* p) { std::free(p); });
+  const std::weak_ptr<std::uint32_t> watched = owner;
+  for (std::uint32_t i = 0; i < 3 * host_page / 4; ++i) owner.get()[i] = i;
+  const auto contents = [&](std::uint64_t from, std::uint64_t count) { return std::as_bytes(std::span(owner.get() + from, count)); };
+  const Buffer in = device.create_buffer({.label = "in", .size = 2500 * 4, .usage = BufferUsage::CopySrc, .contents = contents(0, 2500), .contents_owner = owner});
+  EXPECT_EQ(device.memory().bytes, held + 3 * host_page);
+  owner.get()[7] = 70;
+  std::vector<std::uint32_t> got = values_of<std::uint32_t>(device.read_buffer(in));
+  ASSERT_EQ(got.size(), 2500u);
+  EXPECT_EQ(got[7], 70u);
+  EXPECT_EQ(got[2499], 2499u);
+  // Not at the start of a page: copied.
+  const Buffer copied = device.create_buffer({.label = "copied", .size = 400, .usage = BufferUsage::CopySrc, .contents = contents(1, 100), .contents_owner = owner});
+  owner.get()[1] = 90;
+  EXPECT_EQ(values_of<std::uint32_t>(device.read_buffer(copied))[0], 1u);
+  owner.reset();
+  EXPECT_FALSE(watched.expired()) << "the buffer keeps it";
+  EXPECT_EQ(values_of<std::uint32_t>(device.read_buffer(in))[7], 70u);
+}
+
+TEST_F(MemoryTest, without_the_feature_contents_are_copied) {
+  auto owner = std::shared_ptr<std::uint32_t>(static_cast<std::uint32_t*>(std::aligned_alloc(host_page, host_page)), [](void* p) { std::free(p); });
+  std::fill_n(owner.get(), 1024, 5u);
+  device = make_device({});
+  const Buffer in = device.create_buffer({.label = "in", .size = 4096, .usage = BufferUsage::CopySrc, .contents = std::as_bytes(std::span(owner.get(), 1024)), .contents_owner = owner});
+  owner.get()[3] = 6;
+  EXPECT_EQ(values_of<std::uint32_t>(device.read_buffer(in))[3], 5u);
+}
+
 TEST_F(MemoryTest, objects_may_be_dropped_before_the_device_is_done) {
   Buffer out = device.create_buffer({.label = "out", .size = 1 << 20, .usage = BufferUsage::CopySrc | BufferUsage::CopyDst});
   {

@@ -211,5 +211,15 @@ TEST(Similarity, OnlyRotationsMirrorsAndOneScale) {
   EXPECT_FALSE(similarity_scale(glm::dmat4(0.0)));
 }
 
+// What a device on the processor uses as it is.
+TEST(Chunks, RecordsStartAtPages) {
+  const std::vector<glm::dvec3> centers(1000, glm::dvec3(1));
+  const std::vector<double> radii(1000, 1.0);
+  const std::vector<std::uint32_t> rows(1000, 0), colors(1000, 0);
+  const ChunkSet set = build_spheres(centers, radii, rows, colors);
+  for (const void* at : {static_cast<const void*>(set.records.data()), static_cast<const void*>(set.rows.data()), static_cast<const void*>(set.colors.data())})
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(at) % page_bytes, 0u);
+}
+
 } // namespace
 } // namespace mote

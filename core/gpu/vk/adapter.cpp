@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 namespace mote::gpu::vk {
 namespace {
@@ -104,6 +106,22 @@ Feature read_features(const Properties& p, const Features& f, std::uint32_t time
   return features;
 }
 
+// The caller's memory as it is: only where the device is the processor, and its pages are no larger than ours.
+bool takes_host_memory(VkPhysicalDevice device, const AdapterInfo& info) {
+  if (info.type != DeviceType::Cpu) return false;
+  std::uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+  if (std::none_of(extensions.begin(), extensions.end(), [](const auto& e) { return std::string_view(e.extensionName) == VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME; }))
+    return false;
+  auto host = vk::init<VkPhysicalDeviceExternalMemoryHostPropertiesEXT>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTERNAL_MEMORY_HOST_PROPERTIES_EXT);
+  auto properties = vk::init<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
+  properties.pNext = &host;
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  return host.minImportedHostPointerAlignment <= host_page;
+}
+
 FormatTable read_formats(VkPhysicalDevice device) {
   FormatTable table{};
   for (std::size_t i = 1; i < format_count; ++i) {
@@ -166,6 +184,7 @@ std::shared_ptr<AdapterCore> read_adapter(const std::shared_ptr<InstanceCore>& i
   core->max_allocation = properties.v11.maxMemoryAllocationSize;
   const auto queue = choose_queue(device);
   core->facts.features = read_features(properties, features, queue ? queue->timestamp_bits : 0);
+  if (takes_host_memory(device, core->info)) core->facts.features |= Feature::HostMemory;
   core->queue_family = queue ? queue->family : 0;
   if (!queue) core->unsuitable = "has no queue for both drawing and computing";
   return core;

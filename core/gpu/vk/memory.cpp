@@ -36,15 +36,19 @@ std::optional<std::uint32_t> choose_type(const VkPhysicalDeviceMemoryProperties&
   return type;
 }
 
+void check_budget(const DeviceCore& core, std::uint64_t size, std::string_view what) {
+  const MemoryReport& report = core.memory;
+  if (report.budget == 0 || (size <= report.budget && report.bytes <= report.budget - size)) return;
+  out_of_memory("V-MEM-001", "{} asks for {} bytes; {} holds {} bytes already and its budget is {} bytes.", what, size,
+                named("Device", core.label), report.bytes, report.budget);
+}
+
 } // namespace
 
 Allocation::Allocation(DeviceCore& core, const VkMemoryRequirements& needs, MemoryKind kind, std::string_view what)
     : core_(&core), size_(needs.size) {
   MemoryReport& report = core.memory;
-  if (report.budget != 0 && (size_ > report.budget || report.bytes > report.budget - size_)) {
-    out_of_memory("V-MEM-001", "{} asks for {} bytes; {} holds {} bytes already and its budget is {} bytes.", what, size_,
-                  named("Device", core.label), report.bytes, report.budget);
-  }
+  check_budget(core, size_, what);
   const auto& memory = core.adapter->memory;
   const auto type = choose_type(memory, needs.memoryTypeBits, kind);
   if (!type) internal_error("V-MEM-003", "The driver offers no memory type for {}.", what);
@@ -65,9 +69,34 @@ Allocation::Allocation(DeviceCore& core, const VkMemoryRequirements& needs, Memo
     check(mapped, "vkMapMemory");
     mapped_ = static_cast<std::byte*>(data);
   }
+  count();
+}
+
+void Allocation::count() {
+  MemoryReport& report = core_->memory;
   report.bytes += size_;
   report.peak_bytes = std::max(report.peak_bytes, report.bytes);
   ++report.allocations;
+}
+
+Allocation::Allocation(DeviceCore& core, const VkMemoryRequirements& needs, std::span<const std::byte> pages, std::string_view what)
+    : core_(&core), size_(pages.size()) {
+  check_budget(core, size_, what);
+  const auto type = choose_type(core.adapter->memory, needs.memoryTypeBits, MemoryKind::Buffer);
+  if (!type) internal_error("V-MEM-003", "The driver offers no memory type for {}.", what);
+  auto import = vk::init<VkImportMemoryHostPointerInfoEXT>(VK_STRUCTURE_TYPE_IMPORT_MEMORY_HOST_POINTER_INFO_EXT);
+  import.handleType = VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT;
+  import.pHostPointer = const_cast<std::byte*>(pages.data()); // Vulkan has no pointers to what is only read
+  auto info = vk::init<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
+  info.pNext = &import;
+  info.allocationSize = pages.size();
+  info.memoryTypeIndex = *type;
+  const VkResult result = vkAllocateMemory(core.device, &info, nullptr, &memory_);
+  if (result != VK_SUCCESS) {
+    memory_ = VK_NULL_HANDLE;
+    out_of_memory("V-MEM-002", "{} is to lie in {} bytes of the caller's memory; the driver refuses ({}).", what, pages.size(), to_string(result));
+  }
+  count();
 }
 
 Allocation& Allocation::operator=(Allocation&& other) noexcept {

@@ -5,6 +5,7 @@
 
 #include "core/gpu/vk/core.hpp"
 
+#include <span>
 #include <utility>
 
 namespace mote::gpu::vk {
@@ -21,6 +22,8 @@ public:
   Allocation() = default;
   // Faults: V-MEM-001 over budget, V-MEM-002 the driver has no more, V-MEM-003 no fitting memory type.
   Allocation(DeviceCore& core, const VkMemoryRequirements& needs, MemoryKind kind, std::string_view what);
+  // Memory of the caller, of a multiple of host_page bytes, for as long as this lives; counts as the device's. Faults: V-MEM-001, 002, 003.
+  Allocation(DeviceCore& core, const VkMemoryRequirements& needs, std::span<const std::byte> pages, std::string_view what);
   Allocation(Allocation&& other) noexcept { *this = std::move(other); }
   Allocation& operator=(Allocation&& other) noexcept;
   Allocation(const Allocation&) = delete;
@@ -31,6 +34,7 @@ public:
   [[nodiscard]] std::byte* mapped() const { return mapped_; }
 
 private:
+  void count();
   void release() noexcept;
   DeviceCore* core_{}; // outlived by: the owner of the allocation shares the core
   VkDeviceMemory memory_{};

@@ -38,6 +38,7 @@ struct Buffer::Impl : vk::Object {
   std::uint64_t size{};
   BufferUsage usage{};
   VkBuffer handle{};
+  std::shared_ptr<const void> host{}; // whose memory it is, if not the device's
   vk::Allocation memory{};
   std::byte* mapped{};    // host-visible memory, whatever the usage
   BufferState state{};
