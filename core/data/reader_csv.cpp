@@ -2,6 +2,8 @@
 // Tables: values between commas, semicolons, tabs or blanks, with or without a row of names, with
 // comments behind '#'. Without names the columns are x y z and, if there are four, the radius.
 #include "core/data/codes.hpp"
+#include "core/data/codes_fields.hpp"
+#include "core/data/fields.hpp"
 #include "core/data/names.hpp"
 #include "core/data/registry.hpp"
 #include "core/data/text.hpp"
@@ -121,6 +123,7 @@ public:
     out.columns = parse_rows(bytes_->name(), range, layout);
     out.count = range.count;
     finish_columns(out.columns);
+    if (!warnings_.has(field_code::end_mark)) check_last_line(*bytes_, warnings_);
     return out;
   }
 

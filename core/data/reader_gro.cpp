@@ -183,9 +183,7 @@ private:
     if (cut_box(cursor, *line))
       fail(Exit::BadInput, code::ends_early, {file(), line->number},
            fmt::format("the file ends within the box {}", shown(trim(line->text))));
-    if (cursor.at_end() && !cursor.all().ends_with('\n') && !warnings_.has(molecule_code::last_line))
-      warnings_.warning(molecule_code::last_line, {file(), line->number},
-                        "the last line has no line end and may be cut off");
+    check_last_line(cursor);
     std::vector<double> v;
     Words words(line->text);
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {

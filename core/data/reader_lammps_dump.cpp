@@ -96,6 +96,7 @@ protected:
     finish_columns(frame.columns);
     check_ids(frame, header.atoms);
     check_follower(range.end, *header.count);
+    check_last_line(range.end);
     return frame;
   }
 

@@ -225,7 +225,7 @@ private:
   }
 
   void read_rows(const Cursor& cursor, std::uint64_t count, const Line& comment,
-                 const std::vector<Declared>& declared, bool extended, Frame& frame) const {
+                 const std::vector<Declared>& declared, bool extended, Frame& frame) {
     RowLayout layout = plan_columns(declared, xyz_customs);
     layout.extra_allowed = !extended;
     require_position(layout, declared, {file(), comment.number});
@@ -237,6 +237,7 @@ private:
     frame.count = count;
     finish_columns(frame.columns);
     check_follower(range.end, count);
+    check_last_line(range.end);
   }
 
   void check_follower(Cursor cursor, std::uint64_t count) const {

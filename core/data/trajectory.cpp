@@ -2,6 +2,7 @@
 #include "core/data/trajectory.hpp"
 
 #include "core/data/codes.hpp"
+#include "core/data/codes_molecular.hpp"
 
 #include <fmt/format.h>
 
@@ -47,6 +48,11 @@ void TextTrajectory::look_further() {
   (void)read_frame(at(last)); // says what is wrong
   fail(Exit::BadInput, code::heading, {file(), starts_[last].line},
        fmt::format("frame {} cannot be stepped over", last));
+}
+
+void TextTrajectory::check_last_line(const Cursor& end) {
+  if (!end.at_end() || text_.empty() || text_.back() == '\n' || warnings_.has(molecule_code::last_line)) return;
+  warnings_.warning(molecule_code::last_line, {file(), end.line() - 1}, "the last line has no line end and may be cut off");
 }
 
 std::uint64_t TextTrajectory::frame_count() {

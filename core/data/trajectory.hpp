@@ -31,6 +31,8 @@ protected:
   // Strict: everything of the frame and what follows it.
   virtual Frame read_frame(Cursor cursor) = 0;
   [[nodiscard]] const std::string& file() const { return bytes_->name(); }
+  // Warns (D051) when the file ends at `end` without a line end: its last number may have lost digits.
+  void check_last_line(const Cursor& end);
 
 private:
   struct Place {

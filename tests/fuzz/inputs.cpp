@@ -32,6 +32,7 @@ std::string format_of(const Input& input) {
 } // namespace
 
 std::map<std::string, std::vector<Input>> inputs_by_format(std::size_t most) {
+  fs::current_path(fs::path(MOTE_SOURCE_DIR) / "tests/data_fields/files"); // four_raw.toml names its numbers
   std::vector<Input> all;
   for (const char* folder : {"tests/fuzz/seeds", "tests/data/files", "tests/data_fields/files", "tests/data_molecular/files"})
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(MOTE_SOURCE_DIR) / folder)) {
@@ -45,7 +46,7 @@ std::map<std::string, std::vector<Input>> inputs_by_format(std::size_t most) {
   for (const bool doubles : {false, true}) all.push_back({"made.trr", "trr", make_trr(2, 3, doubles)});
   for (const auto order : {data::Order::Little, data::Order::Big})
     all.push_back({"made.dcd", "dcd", make_dcd(3, 4, {.order = order, .width = order == data::Order::Big ? 8u : 4u, .free = {1, 3}})});
-  for (const std::uint32_t version : {1u, 2u}) all.push_back({"made.gsd", "gsd", make_gsd(2, 3, version)});
+  for (const std::uint32_t version : {0x10000u, 0x20000u}) all.push_back({"made.gsd", "gsd", make_gsd(2, 3, version)});
   for (const std::uint8_t version : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{5}}) all.push_back({"made.nc", "nc", make_netcdf(2, 3, version)});
   std::sort(all.begin(), all.end(), [](const Input& a, const Input& b) { return a.name != b.name ? a.name < b.name : a.content < b.content; });
   std::map<std::string, std::vector<Input>> out;

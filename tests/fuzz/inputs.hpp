@@ -13,6 +13,7 @@ struct Input {
 };
 
 // Small files under tests/ and the samples, by the format that reads them; larger ones than `most` bytes are left out.
+// The working directory becomes that of the files, because a heading of raw numbers (`raw`) names its file beside it.
 std::map<std::string, std::vector<Input>> inputs_by_format(std::size_t most = 40000);
 
 } // namespace mote::fuzz
