@@ -52,6 +52,11 @@ if(MOTE_BUILD_APP AND MOTE_WINDOW)
     mote_need(IMGUI libimgui-dev)
   endif()
 endif()
+if(MOTE_HDF5) # here, so that the library and its tests see the same
+  enable_language(C) # FindHDF5 compiles with it where the wrapper of the distribution is no answer
+  find_package(HDF5 COMPONENTS C)
+  mote_need(HDF5 libhdf5-dev)
+endif()
 if(MOTE_BUILD_TESTS)
   find_package(GTest CONFIG QUIET)
   mote_need(GTest "libgtest-dev libgmock-dev")

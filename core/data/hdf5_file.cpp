@@ -139,6 +139,15 @@ Hdf5File::Type Hdf5File::type(const std::string& dataset) const {
   }
 }
 
+// A count may lie: more numbers than the file can hold are refused before memory is taken for them. Packed chunks, and those
+// that were never written, are at most a thousand times as large as the file (deflate packs 1032 to 1).
+void Hdf5File::check_size(const std::string& dataset, std::int64_t open, std::uint64_t count) const {
+  const Handle type(H5Dget_type(open), H5Tclose), made(H5Dget_create_plist(open), H5Pclose);
+  const std::uint64_t ratio = H5Pget_layout(made.id) == H5D_CHUNKED ? 1032 : 1, most = times(bytes_->view().size(), ratio);
+  if (times(count, std::max<std::size_t>(1, H5Tget_size(type.id))) > most)
+    refuse(molecule_code::count, fmt::format("the dataset '{}' claims {} values, more than a file of {} bytes can hold", dataset, count, bytes_->view().size()));
+}
+
 template <class T> std::vector<T> Hdf5File::values(const std::string& dataset, std::optional<std::uint64_t> first, std::int64_t memory_type) const {
   const Handle open(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   if (!open) refuse(molecule_code::compressed, fmt::format("the dataset '{}' cannot be opened", dataset));
@@ -146,6 +155,7 @@ template <class T> std::vector<T> Hdf5File::values(const std::string& dataset, s
   const std::vector<std::uint64_t> all = shape_of(space.id);
   std::uint64_t count = 1;
   for (std::size_t k = first ? 1 : 0; k < all.size(); ++k) count = times(count, all[k]);
+  check_size(dataset, open.id, first && !all.empty() ? times(count, all[0]) : count);
   need_memory(times(count, sizeof(T)), {name()}, fmt::format("the dataset '{}'", dataset));
   std::vector<T> out(count);
   if (count == 0) return out;

@@ -44,6 +44,8 @@ public:
   [[noreturn]] void refuse(std::string_view code, const std::string& text, std::vector<std::string> hints = {}) const;
 
 private:
+  // D043 when the dataset `open` cannot have `count` values in a file of this size.
+  void check_size(const std::string& dataset, std::int64_t open, std::uint64_t count) const;
   template <class T> std::vector<T> values(const std::string& dataset, std::optional<std::uint64_t> first, std::int64_t memory_type) const;
   std::shared_ptr<Bytes> bytes_;
   std::int64_t file_{-1};

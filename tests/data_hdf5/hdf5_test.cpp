@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <hdf5.h>
+#include <sys/resource.h>
 
 #include <cmath>
 
@@ -112,22 +113,25 @@ TEST(Hdf5, OutOfMemoryAsOutOfAFile) {
   EXPECT_THAT(numbers(test::read_text(content, "h5"), "position"), ElementsAre(0, 1, 2, 3, 4, 5));
 }
 
+std::filesystem::path gadget(const test::Folder& folder) {
+  const auto path = folder / "snap.hdf5";
+  Maker m(path);
+  m.group("/Header");
+  m.numbers("/Header", "BoxSize", {100});
+  m.numbers("/Header", "Time", {0.25});
+  m.numbers("/Header", "MassTable", {0, 2.5, 0, 0, 0, 0});
+  m.reals("/PartType0/Coordinates", {1, 3}, {1, 2, 3});
+  m.reals("/PartType0/Masses", {1}, {0.5});
+  m.reals("/PartType0/Density", {1}, {8});
+  m.wholes("/PartType0/ParticleIDs", {1}, {11});
+  m.reals("/PartType1/Coordinates", {2, 3}, {4, 5, 6, 7, 8, 9});
+  m.wholes("/PartType1/ParticleIDs", {2}, {12, 13});
+  return path;
+}
+
 TEST(Hdf5, GadgetSnapshot) {
   const test::Folder folder;
-  const auto path = folder / "snap.hdf5";
-  {
-    Maker m(path);
-    m.group("/Header");
-    m.numbers("/Header", "BoxSize", {100});
-    m.numbers("/Header", "Time", {0.25});
-    m.numbers("/Header", "MassTable", {0, 2.5, 0, 0, 0, 0});
-    m.reals("/PartType0/Coordinates", {1, 3}, {1, 2, 3});
-    m.reals("/PartType0/Masses", {1}, {0.5});
-    m.reals("/PartType0/Density", {1}, {8});
-    m.wholes("/PartType0/ParticleIDs", {1}, {11});
-    m.reals("/PartType1/Coordinates", {2, 3}, {4, 5, 6, 7, 8, 9});
-    m.wholes("/PartType1/ParticleIDs", {2}, {12, 13});
-  }
+  const auto path = gadget(folder);
   const Frame frame = open(path)->read(0);
   EXPECT_EQ(test::broken_promise(frame), "");
   EXPECT_EQ(frame.count, 3u);
@@ -141,15 +145,18 @@ TEST(Hdf5, GadgetSnapshot) {
   EXPECT_EQ(frame.box->edges[1][1], 100.0);
 }
 
+std::filesystem::path vtkhdf(const test::Folder& folder) {
+  const auto path = folder / "a.vtkhdf";
+  Maker m(path);
+  m.reals("/VTKHDF/Points", {2, 3}, {1, 2, 3, 4, 5, 6});
+  m.reals("/VTKHDF/PointData/Temp", {2}, {7, 8});
+  m.reals("/VTKHDF/PointData/V", {2, 3}, {1, 0, 0, 0, 1, 0});
+  return path;
+}
+
 TEST(Hdf5, VtkHdfPoints) {
   const test::Folder folder;
-  const auto path = folder / "a.vtkhdf";
-  {
-    Maker m(path);
-    m.reals("/VTKHDF/Points", {2, 3}, {1, 2, 3, 4, 5, 6});
-    m.reals("/VTKHDF/PointData/Temp", {2}, {7, 8});
-    m.reals("/VTKHDF/PointData/V", {2, 3}, {1, 0, 0, 0, 1, 0});
-  }
+  const auto path = vtkhdf(folder);
   const Frame frame = open(path)->read(0);
   EXPECT_EQ(test::broken_promise(frame), "");
   EXPECT_THAT(numbers(frame, "position"), ElementsAre(1, 2, 3, 4, 5, 6));
@@ -171,6 +178,18 @@ TEST(Hdf5, WhatIsNoneOfThem) {
   EXPECT_EQ(test::failure_of([&] { (void)open(folder / "flat.h5"); }).code, "D013");
 }
 
+// The files that fuzzing starts from (tests/fuzz/seeds/*.h5) are those of the tests above, made where MOTE_UPDATE_SEEDS is set.
+TEST(Hdf5, KeptSeedsAreRead) {
+  const std::filesystem::path seeds = std::filesystem::path(MOTE_SOURCE_DIR) / "tests/fuzz/seeds";
+  if (std::getenv("MOTE_UPDATE_SEEDS")) {
+    const test::Folder folder;
+    std::filesystem::copy_file(h5md(folder), seeds / "h5md.h5", std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::copy_file(gadget(folder), seeds / "gadget.h5", std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::copy_file(vtkhdf(folder), seeds / "vtkhdf.h5", std::filesystem::copy_options::overwrite_existing);
+  }
+  for (const auto& [name, count] : {std::pair{"h5md.h5", 2u}, {"gadget.h5", 3u}, {"vtkhdf.h5", 2u}}) EXPECT_EQ(open(seeds / name)->read(0).count, count) << name;
+}
+
 TEST(Hdf5, CutOrChangedFilesAreReadOrRefused) {
   const test::Folder folder;
   const std::string content = test::content_of(h5md(folder));
@@ -180,6 +199,9 @@ TEST(Hdf5, CutOrChangedFilesAreReadOrRefused) {
     changed[at] = static_cast<char>(changed[at] ^ 0x55);
     ASSERT_EQ(test::survives(changed, "h5"), "") << at;
   }
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  EXPECT_LT(usage.ru_maxrss, 600 << 10) << "memory was taken for a count that lies";
 }
 
 } // namespace
