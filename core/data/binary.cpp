@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 namespace mote::data {
+namespace {
+constexpr std::uint64_t pages_kept = std::uint64_t{64} << 20; // bytes
+}
 
 void ByteReader::refuse(std::string_view code, std::string text, std::vector<std::string> hints) const {
   refuse_at(at_, code, std::move(text), std::move(hints));
@@ -49,6 +52,10 @@ bool BinaryTrajectory::look_further() {
       break;
     }
     next_ = in.at();
+    if (next_ - released_ > pages_kept) { // where the file is in the kernel's cache, whole stretches around a head become resident
+      bytes().release_pages();
+      released_ = next_;
+    }
     if (wanted) {
       starts_.push_back(start);
       return true;

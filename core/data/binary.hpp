@@ -133,6 +133,7 @@ private:
   Order order_;
   std::vector<std::uint64_t> starts_{};
   std::uint64_t next_{};    // behind the last known frame
+  std::uint64_t released_{}; // up to where pages were let go of while looking
   std::uint64_t skipped_{}; // frames left out
   bool complete_{};
 };

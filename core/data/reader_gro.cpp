@@ -4,12 +4,16 @@
 // number, residue name, atom name, atom number (both numbers wrap at 100 000, so that no id is given).
 // The width of the numbers behind them is the distance between their decimal points, so that any
 // precision is read. nm and nm/ps.
+#include "core/base/parallel.hpp"
 #include "core/data/codes_molecular.hpp"
 #include "core/data/molecule.hpp"
 #include "core/data/registry.hpp"
+#include "core/data/rows.hpp"
 #include "core/data/trajectory.hpp"
 
 #include <fmt/format.h>
+
+#include <unordered_map>
 
 namespace mote::data {
 namespace {
@@ -22,6 +26,34 @@ std::size_t number_width(std::string_view line) {
   const std::size_t two = one == std::string_view::npos ? one : line.find('.', one + 1);
   const std::size_t three = two == std::string_view::npos ? two : line.find('.', two + 1);
   return three == std::string_view::npos || three - two != two - one || two - one < 2 ? 0 : two - one;
+}
+
+// The atoms of a frame: numbers in their places, words block by block.
+struct GroAtoms {
+  struct Words {
+    Labels residues{}, names{}, elements{};
+  };
+  std::vector<double> positions{}, velocities{};
+  std::vector<std::int64_t> residue_ids{};
+  std::vector<Words> blocks{};
+};
+
+// Codes by first appearance in the file, whatever the blocks.
+Column joined(std::vector<GroAtoms::Words>& blocks, Labels GroAtoms::Words::* words, std::string name) {
+  TextColumn all;
+  std::unordered_map<std::string, std::uint32_t> known;
+  for (GroAtoms::Words& block : blocks) {
+    const Column column = (block.*words).take({});
+    const auto& text = std::get<TextColumn>(column.values);
+    std::vector<std::uint32_t> code_of;
+    for (const std::string& word : text.dictionary) {
+      const auto [at, fresh] = known.try_emplace(word, static_cast<std::uint32_t>(all.dictionary.size()));
+      if (fresh) all.dictionary.push_back(word);
+      code_of.push_back(at->second);
+    }
+    for (const std::uint32_t code : text.codes) all.codes.push_back(code_of[code]);
+  }
+  return {std::move(name), 1, std::move(all), {}};
 }
 
 class GroSource : public TextTrajectory {
@@ -102,47 +134,48 @@ private:
     return count;
   }
 
+  // Lines stand alone: all cores read them, block by block.
   void read_atoms(Cursor& cursor, std::size_t width, Frame& frame) const {
-    Labels residues, names, elements;
-    std::vector<std::int64_t> residue_ids;
-    std::vector<double> positions, velocities;
-    bool has_velocity = false;
-    positions.reserve(3 * frame.count);
-    for (std::uint64_t row = 0; row < frame.count; ++row) {
-      const auto line = cursor.next();
-      if (!line)
-        fail(Exit::BadInput, code::ends_early, {file(), cursor.line()},
-             fmt::format("the file ends after {} of {} atoms", row, frame.count));
-      const std::string_view text = line->text;
-      if (text.size() < first_number + 3 * width || (cursor.at_end() && row + 1 == frame.count))
-        fail(Exit::BadInput, cursor.at_end() ? code::ends_early : code::too_few, {file(), line->number},
-             cursor.at_end()
-                 ? fmt::format("the file ends within or behind atom {} of {}", row + 1, frame.count)
-                 : fmt::format("the line of atom {} has {} columns, but {} are needed", row + 1, text.size(),
-                               first_number + 3 * width));
-      if (row == 0)
-        has_velocity = text.size() >= first_number + 6 * width &&
-                       text.find('.', first_number + 3 * width) != std::string_view::npos;
-      residue_ids.push_back(integer(*line, text.substr(0, 5), "the residue number"));
-      const std::string_view residue = trim(text.substr(5, 5)), name = trim(text.substr(10, 5));
-      residues.add(residue);
-      names.add(name);
-      elements.add(element_of_name(name, residue));
-      for (std::size_t k = 0; k < 3; ++k)
-        positions.push_back(real(*line, text.substr(first_number + k * width, width)));
-      for (std::size_t k = 3; has_velocity && k < 6; ++k) {
-        if (text.size() < first_number + (k + 1) * width)
-          fail(Exit::BadInput, code::too_few, {file(), line->number},
-               fmt::format("the line of atom {} has no velocity, but the first one has", row + 1));
-        velocities.push_back(real(*line, text.substr(first_number + k * width, width)));
-      }
-    }
-    frame.columns.push_back(real_column("position", 3, std::move(positions), "nm"));
-    if (has_velocity) frame.columns.push_back(real_column("velocity", 3, std::move(velocities), "nm/ps"));
-    frame.columns.push_back(elements.take("element"));
-    frame.columns.push_back(names.take("atom_name"));
-    frame.columns.push_back(residues.take("residue_name"));
-    frame.columns.push_back(int_column("residue_id", std::move(residue_ids)));
+    const auto first = cursor.peek();
+    const bool moving = first && first->text.size() >= first_number + 6 * width && first->text.find('.', first_number + 3 * width) != std::string_view::npos;
+    const RowRange range = find_rows(cursor, frame.count, {});
+    GroAtoms atoms{std::vector<double>(3 * range.count), std::vector<double>(moving ? 3 * range.count : 0), std::vector<std::int64_t>(range.count),
+                   std::vector<GroAtoms::Words>(range.blocks.size())};
+    for_each_block(range.blocks.size(), [&](std::size_t block) {
+      const RowRange::Block& begin = range.blocks[block];
+      Cursor lines(cursor.all(), begin.offset, begin.line);
+      const std::uint64_t end = block + 1 < range.blocks.size() ? range.blocks[block + 1].row : range.count;
+      for (std::uint64_t row = begin.row; row < end; ++row) read_atom(lines, row, width, atoms, atoms.blocks[block]);
+    });
+    cursor = range.end;
+    if (range.count < frame.count)
+      fail(Exit::BadInput, code::ends_early, {file(), cursor.line()}, fmt::format("the file ends after {} of {} atoms", range.count, frame.count));
+    frame.columns.push_back(real_column("position", 3, std::move(atoms.positions), "nm"));
+    if (moving) frame.columns.push_back(real_column("velocity", 3, std::move(atoms.velocities), "nm/ps"));
+    frame.columns.push_back(joined(atoms.blocks, &GroAtoms::Words::elements, "element"));
+    frame.columns.push_back(joined(atoms.blocks, &GroAtoms::Words::names, "atom_name"));
+    frame.columns.push_back(joined(atoms.blocks, &GroAtoms::Words::residues, "residue_name"));
+    frame.columns.push_back(int_column("residue_id", std::move(atoms.residue_ids)));
+  }
+
+  void read_atom(Cursor& cursor, std::uint64_t row, std::size_t width, GroAtoms& atoms, GroAtoms::Words& words) const {
+    const Line line = cursor.next().value_or(Line{});
+    const std::string_view text = line.text;
+    const bool moving = !atoms.velocities.empty();
+    if (cursor.at_end()) // the box is missing at least
+      fail(Exit::BadInput, code::ends_early, {file(), line.number}, fmt::format("the file ends within or behind atom {}", row + 1));
+    if (text.size() < first_number + 3 * width)
+      fail(Exit::BadInput, code::too_few, {file(), line.number},
+           fmt::format("the line of atom {} has {} columns, but {} are needed", row + 1, text.size(), first_number + 3 * width));
+    if (moving && text.size() < first_number + 6 * width)
+      fail(Exit::BadInput, code::too_few, {file(), line.number}, fmt::format("the line of atom {} has no velocity, but the first one has", row + 1));
+    atoms.residue_ids[row] = integer(line, text.substr(0, 5), "the residue number");
+    const std::string_view residue = trim(text.substr(5, 5)), name = trim(text.substr(10, 5));
+    words.residues.add(residue);
+    words.names.add(name);
+    words.elements.add(element_of_name(name, residue));
+    for (std::size_t k = 0; k < 3; ++k) atoms.positions[3 * row + k] = real(line, text.substr(first_number + k * width, width));
+    for (std::size_t k = 0; moving && k < 3; ++k) atoms.velocities[3 * row + k] = real(line, text.substr(first_number + (3 + k) * width, width));
   }
 
   std::int64_t integer(const Line& line, std::string_view field, std::string_view what) const {

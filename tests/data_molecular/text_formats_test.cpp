@@ -216,6 +216,25 @@ TEST(Gro, ABlankTitle) {
   EXPECT_EQ(vector_at(source->read(1), "position", 0), glm::dvec3(0.123, 1.234, 2.345));
 }
 
+// Atoms are read in blocks by all cores: the same columns, words in the order of their first appearance, the first flaw.
+TEST(Gro, ManyAtoms) {
+  std::string file = "many\n20000\n";
+  for (int i = 0; i < 20000; ++i)
+    file += fmt::format("{:5d}{:<5}{:>5}{:5d}{:8.3f}{:8.3f}{:8.3f}\n", i % 100000, i < 15000 ? "SOL" : "NA", i < 15000 ? (i % 3 ? "HW1" : "OW") : "NA", (i + 1) % 100000, i * 0.001, 1.0, 2.0);
+  file += "  30.0 30.0 30.0\n";
+  const Frame frame = open_text(file, "gro")->read(0);
+  EXPECT_EQ(broken_promise(frame), "");
+  ASSERT_EQ(frame.count, 20000u);
+  EXPECT_EQ(vector_at(frame, "position", 12345), glm::dvec3(12.345, 1, 2));
+  EXPECT_EQ(frame.find("residue_id")->number(19999), 19999);
+  EXPECT_EQ(text_at(frame, "element", 15000), "Na");
+  EXPECT_EQ(std::get<TextColumn>(frame.find("atom_name")->values).dictionary, (std::vector<std::string>{"OW", "HW1", "NA"}));
+  for (const std::size_t row : {18000u, 9000u}) file[11 + 45 * row + 30] = 'x'; // heads of "many\n20000\n", lines of 45
+  const Diagnostic d = failure_of_text(file, "gro");
+  EXPECT_EQ(d.code, "D012");
+  EXPECT_EQ(d.loc.line, 9003u);
+}
+
 TEST(LammpsData, EverySectionThatIsRead) {
   const auto source = open_text(molecule_file("full.data"));
   EXPECT_EQ(source->format(), "lammps-data");
