@@ -12,7 +12,7 @@ namespace {
 
 void list_formats() {
   for (const data::Format& format : data::formats()) fmt::print("{:<14}{}  ({})\n", format.name, format.summary, format.extensions);
-  fmt::print("Formats are recognized by content; gzip is looked through.\n");
+  fmt::print("Formats are recognized by content; gzip, xz and zstd are looked through.\n");
 }
 
 void list_colormaps() {

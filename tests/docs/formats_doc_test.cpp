@@ -15,13 +15,14 @@ using testing::HasSubstr;
 
 std::string read(const std::string& name) { return (std::ostringstream() << std::ifstream(MOTE_SOURCE_DIR "/docs/" + name).rdbuf()).str(); }
 
-// Words of the first cells of the first table.
-std::set<std::string> first_column(const std::string& document) {
+// Words of the cells of a column of the first table; commas count as blanks.
+std::set<std::string> words_of_column(const std::string& document, int column) {
   std::set<std::string> words;
   std::istringstream lines(document.substr(document.find("| format |")));
   std::string line;
   for (int number = 0; std::getline(lines, line) && line.starts_with('|'); ++number) {
     if (number < 2) continue; // the head
+    for (int k = 0; k < column; ++k) line.erase(0, line.find('|', 1));
     std::string cell = line.substr(1, line.find('|', 1) - 1);
     std::replace(cell.begin(), cell.end(), ',', ' ');
     std::istringstream split(cell);
@@ -33,7 +34,16 @@ std::set<std::string> first_column(const std::string& document) {
 TEST(FormatsDoc, HasARowForEveryFormat) {
   std::set<std::string> formats;
   for (const mote::data::Format& format : mote::data::formats()) formats.emplace(format.name);
-  EXPECT_EQ(first_column(read("formats.md")), formats);
+  EXPECT_EQ(words_of_column(read("formats.md"), 0), formats);
+}
+
+TEST(FormatsDoc, NamesEveryEnding) {
+  std::set<std::string> endings;
+  for (const mote::data::Format& format : mote::data::formats()) {
+    std::istringstream split{std::string(format.extensions)};
+    for (std::string word; split >> word;) endings.insert(word);
+  }
+  EXPECT_EQ(words_of_column(read("formats.md"), 1), endings);
 }
 
 TEST(FormatsDoc, NamesTheFormatsThatNeedATopology) {
