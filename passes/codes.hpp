@@ -8,7 +8,7 @@
 
 namespace mote::passes {
 
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 19> pass_codes{{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 20> pass_codes{{
     {"G031", "error: a draw list names a particle type that does not exist"},
     {"P001", "failed: a particle type cannot be drawn by the expansion that was asked for, or the device cannot"},
     {"P002", "failed: a shader that is made at run time does not compile"},
@@ -28,6 +28,7 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 19> p
     {"P018", "error: a shadow map of casters meets a data set that is scaled unevenly; one of depths holds it"},
     {"P020", "warning: the device lacks what tiles need, so auto draws without them"},
     {"P021", "failed: analytic edges are asked of a particle type whose outlines are sampled only"},
+    {"P022", "error: a particle type from a folder does not compile; the rest is drawn and the exit status is 3"},
 }};
 
 } // namespace mote::passes

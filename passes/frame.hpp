@@ -30,7 +30,7 @@ struct ExpansionReport; // passes/particles/expansion_choice.hpp
 
 struct FrameOptions {
   Expansion expansion{Expansion::Auto};
-  bool show_depth_violation{}; // tests: fragments whose depth breaks the conservative bound are magenta (FC-29)
+  bool show_depth_violation{}; // magenta: fragments whose depth breaks the conservative bound (FC-29), NaN of types from files
   double frames{1};            // that are expected to be drawn like this one: one-time costs count by their share
   const DeviceCosts* costs{};  // what `auto` reckons with; null: the numbers shipped for a processor
   std::function<void(const ExpansionReport&)> chosen{}; // told by each pass that draws particles, each frame

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "passes/full_screen.hpp"
 
+#include "passes/particles/user_type.hpp"
 #include "shaders/embedded.hpp"
 
 #include <stdexcept>
@@ -9,7 +10,7 @@
 namespace mote::passes {
 
 gpu::RenderPipeline full_screen_pipeline(gpu::Device& device, const FullScreen& d) {
-  const auto words = shaders::spirv(d.fragment);
+  const auto words = particle_spirv(std::string(d.fragment));
   if (words.empty()) throw std::logic_error("no shipped shader '" + std::string(d.fragment) + "'");
   const gpu::ShaderModule vertex = device.create_shader_module({.label = "post/fullscreen.vert", .spirv = shaders::spirv("post/fullscreen.vert")});
   const gpu::ShaderModule fragment = device.create_shader_module({.label = d.fragment, .spirv = words});

@@ -34,11 +34,11 @@ gpu::ShaderStage stage_of(const std::string& path) {
 
 } // namespace
 
-std::vector<std::uint32_t> compile_shader(const std::string& path, const std::vector<std::pair<std::string, std::string>>& made,
+std::vector<std::uint32_t> compile_shader(const std::string& path, const std::vector<MadeText>& made,
                                           const std::string& cache_directory, std::span<const gpu::ShaderDefine> defines) {
   const auto include = [&](const std::string& name, const std::string&) -> std::optional<gpu::GlslSource> {
-    for (const auto& [made_name, text] : made)
-      if (made_name == name) return gpu::GlslSource{name, text};
+    for (const MadeText& m : made)
+      if (m.name == name) return gpu::GlslSource{m.shown.empty() ? m.name : m.shown, m.text};
     if (auto text = shader_text(name)) return gpu::GlslSource{name, *text};
     return std::nullopt;
   };

@@ -9,14 +9,19 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace mote::passes {
 
+// A text that is made, not read: found by #include under `name`.
+struct MadeText {
+  std::string name{}, text{};
+  std::string shown{}; // what messages call it; empty: its name
+};
+
 // `made` are texts that #include finds by name before any file. Results are kept in
 // `cache_directory` (none if empty). Throws Failure (P002) with the compiler's messages.
-std::vector<std::uint32_t> compile_shader(const std::string& path, const std::vector<std::pair<std::string, std::string>>& made,
+std::vector<std::uint32_t> compile_shader(const std::string& path, const std::vector<MadeText>& made,
                                           const std::string& cache_directory, std::span<const gpu::ShaderDefine> defines = {});
 
 } // namespace mote::passes

@@ -109,14 +109,16 @@ void print_text(const Measured& m, const std::string& device, std::string_view e
   }
 }
 
-void run(const BenchArguments& a) {
-  const JobRequest request = job_request(a.scene);
+Exit run(const BenchArguments& a) {
+  JobRequest request = job_request(a.scene);
+  request.device = a.device.device;
   const passes::Expansion expansion = parse_expansion(a.scene.expansion);
   Diagnostics diagnostics;
   const Job job = load_job(request, diagnostics);
   std::optional<ReadyGraph> graph;
   if (!diagnostics.has_errors()) graph = ready_graph(job.graph, diagnostics);
   if (graph) warn_of_graph(job, *graph, diagnostics);
+  print(job.left_out);
   print_and_stop_on_errors(diagnostics);
   const ColorConfig config = ColorConfig::load(a.device.display.config);
   DrawingDevice device(a.device.device);
@@ -128,6 +130,7 @@ void run(const BenchArguments& a) {
   print(renderer.report());
   const std::string_view used = passes::to_string(renderer.expansion());
   (a.json ? print_json : print_text)(measured, device.info().name, used, job.scene.particle_count());
+  return exit_of(job.left_out);
 }
 
 } // namespace
@@ -143,10 +146,7 @@ void add_bench(CLI::App& app, Exit& exit) {
   command->add_flag("--stages", a->stages, "the parts of passes, too");
   command->add_flag("--stats", a->stats, "vertices, primitives, fragments and the components they get, of each pass in the last frame");
   command->add_flag("--json", a->json, "as JSON");
-  command->callback([a, &exit] {
-    run(*a);
-    exit = Exit::Done;
-  });
+  command->callback([a, &exit] { exit = run(*a); });
 }
 
 } // namespace mote::app

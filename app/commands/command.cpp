@@ -3,13 +3,18 @@
 
 #include "app/codes.hpp"
 #include "app/library/panels.hpp"
+#include "core/data/series.hpp"
+#include "core/scene/generated.hpp"
+#include "core/scene/user_type.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 
 namespace mote::app {
 
@@ -18,10 +23,17 @@ void add_scene_arguments(CLI::App& command, SceneArguments& a) {
   command.add_option("--set", a.settings, "change a value: camera.fov_y=40, light.sun.intensity=2, display.exposure=1")
       ->allow_extra_args(false)
       ->type_name("PATH=VALUE");
+  add_type_option(command, a.types);
   command.add_option("--style", a.style, "how molecules are shown: spacefill, ball_and_stick, licorice")->type_name("STYLE");
   command.add_option("--graph", a.graph, "shipped graph or graph file")->type_name("GRAPH");
   command.add_option("--size", a.size, "size of the picture in pixels, 1280x720 if not given")->type_name("WxH");
   command.add_option("--expansion", a.expansion, "how particles become fragments: auto, vertex, geometry, compute, point")->type_name("NAME");
+}
+
+void add_type_option(CLI::App& command, std::vector<std::string>& types) {
+  command.add_option("--type", types, "a folder with a particle type (type.toml, type.glsl); particle files named alone are drawn by the last one")
+      ->allow_extra_args(false)
+      ->type_name("DIR");
 }
 
 void add_device_arguments(CLI::App& command, DeviceArguments& a) {
@@ -66,10 +78,29 @@ std::pair<std::string, std::string> split_request(const std::string& option, con
   return {request.substr(0, equals), request.substr(equals + 1)};
 }
 
+namespace {
+
+// Particle files without a scene are drawn by the last type that is named.
+void draw_by_type(const SceneArguments& a, JobRequest& request) {
+  if (a.types.empty()) return;
+  for (const std::string& folder : a.types) request.types.push_back(std::filesystem::absolute(folder).lexically_normal().string());
+  const auto whole = [](const std::string& word) { return is_scene_path(word) || is_generated_name(word); };
+  if (std::any_of(a.words.begin(), a.words.end(), whole)) return;
+  Diagnostics told_later;
+  const auto type = read_user_type(request.types.back(), {"--type"}, told_later);
+  if (!type) return;
+  std::size_t i = 0;
+  for (const std::string& word : a.words)
+    if (!data::is_trajectory_name(word)) request.settings.insert(request.settings.begin(), fmt::format("data[{}].type=\"{}\"", i++, type->name));
+}
+
+} // namespace
+
 JobRequest job_request(const SceneArguments& a) {
   JobRequest request;
   request.words = a.words;
   request.settings = a.settings;
+  draw_by_type(a, request);
   if (!a.style.empty()) request.settings.push_back(fmt::format("style=\"{}\"", a.style));
   if (!a.graph.empty()) request.graph = a.graph;
   request.size = parse_size(a.size);

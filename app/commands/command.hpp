@@ -17,7 +17,7 @@ namespace mote::app {
 
 // What to draw and how: words and options of render, bench, view, check.
 struct SceneArguments {
-  std::vector<std::string> words{}, settings{};
+  std::vector<std::string> words{}, settings{}, types{};
   std::string graph{}, size{"1280x720"}, expansion{"auto"}, style{};
 };
 struct DeviceArguments {
@@ -25,6 +25,8 @@ struct DeviceArguments {
   DisplayOptions display{};
 };
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments);
+// --type, into absolute folders.
+void add_type_option(CLI::App& command, std::vector<std::string>& types);
 void add_device_arguments(CLI::App& command, DeviceArguments& arguments);
 
 JobRequest job_request(const SceneArguments& arguments);       // throws Failure A002

@@ -135,10 +135,13 @@ void print_text(const Explained& e, const rg::Plan& plan, const passes::DeviceCo
 void run(const ExplainArguments& a) {
   const passes::Expansion expansion = parse_expansion(a.scene.expansion);
   Diagnostics diagnostics;
-  const Job job = load_job(job_request(a.scene), diagnostics);
+  JobRequest request = job_request(a.scene);
+  request.device = a.device.device;
+  const Job job = load_job(request, diagnostics);
   std::optional<ReadyGraph> graph;
   if (!diagnostics.has_errors()) graph = ready_graph(job.graph, diagnostics);
   if (graph) warn_of_graph(job, *graph, diagnostics);
+  print(job.left_out);
   print_and_stop_on_errors(diagnostics);
   const ColorConfig config = ColorConfig::load(a.device.display.config);
   DrawingDevice device(a.device.device);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // mote graph: looks at a render graph without a device: problems, plan, Graphviz, kinds of passes.
 #include "app/commands/command.hpp"
+#include "app/library/user_types.hpp"
 #include "passes/particles/particle_type.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +11,7 @@ namespace {
 
 struct GraphArguments {
   std::string graph{"default"};
-  std::vector<std::string> settings{};
+  std::vector<std::string> settings{}, types{};
   bool check{}, plan{}, dot{}, kinds{}, schema{}, json{}, strict{};
 };
 
@@ -23,7 +24,18 @@ GraphRequest request_of(const GraphArguments& a) {
   return request;
 }
 
+// Types from folders become known: a graph's draw lists may name them, the matrix has them.
+void take_types(const GraphArguments& a) {
+  SceneDesc named;
+  Diagnostics found;
+  for (const std::string& folder : a.types)
+    if (auto type = read_user_type(folder, {"--type"}, found)) named.types.push_back(std::move(type));
+  app::take_types(named, {}, found);
+  print_and_stop_on_errors(found);
+}
+
 Exit run(const GraphArguments& a) {
+  take_types(a);
   if (a.kinds) {
     fmt::print("{}", a.json ? rg::kinds_json(registry()) : rg::kinds_text(registry()));
     if (!a.json) fmt::print("\n{}", passes::support_matrix());
@@ -56,6 +68,7 @@ void add_graph(CLI::App& app, Exit& exit) {
   auto a = std::make_shared<GraphArguments>();
   command->add_option("GRAPH", a->graph, "shipped graph or graph file");
   command->add_option("--set", a->settings, "change a parameter of a pass")->allow_extra_args(false)->type_name("PASS.PARAMETER=VALUE");
+  add_type_option(*command, a->types);
   CLI::Option* check = command->add_flag("--check", a->check, "say what is wrong, or that nothing is");
   CLI::Option* plan = command->add_flag("--plan", a->plan, "the passes in order, with what they load, store and share (the default)");
   CLI::Option* dot = command->add_flag("--dot", a->dot, "the same for Graphviz");

@@ -3,12 +3,14 @@
 #include "app/commands/command.hpp"
 #include "core/data/series.hpp"
 #include "core/scene/assembly.hpp"
+#include "core/scene/attributes.hpp"
 #include "core/scene/scene_source.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace mote::app {
@@ -17,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct InfoArguments {
-  std::vector<std::string> words{};
+  std::vector<std::string> words{}, types{};
   std::optional<std::int64_t> frame{};
   bool json{};
 };
@@ -146,10 +148,25 @@ void print_text(const FileInfo& info) {
   }
 }
 
+// What a type from a folder needs, and where the files have it.
+void print_type(const UserType& type, const std::vector<FileInfo>& files) {
+  fmt::print("type {} in {}: {}\n", type.name, type.folder.string(), type.summary);
+  for (const UserAttribute& a : type.attributes) {
+    std::string where;
+    for (const FileInfo& file : files)
+      if (find_attribute(file.frame, a.name)) where += (where.empty() ? "in " : ", ") + file.name;
+    if (where.empty()) where = a.otherwise ? "in no file" : "in no file, and without a default: attributes = { " + a.name + " = ... } says it";
+    fmt::print("  {:<16}{:<8}{}  {}\n", a.name, a.length ? "length" : "none", a.otherwise ? fmt::format("default {:g}", *a.otherwise) : "", where);
+  }
+}
+
 // The files that the words name; of a scene those of its data sets.
-std::vector<FileInfo> gather(const InfoArguments& a, Diagnostics& diagnostics) {
+std::vector<FileInfo> gather(const InfoArguments& a, std::vector<UserType>& kinds, Diagnostics& diagnostics) {
   std::vector<FileInfo> files;
-  const SceneDesc desc = describe(a.words, {}, diagnostics);
+  std::vector<std::string> types;
+  for (const std::string& folder : a.types) types.push_back("particle_types+=" + std::filesystem::absolute(folder).lexically_normal().string());
+  const SceneDesc desc = describe(a.words, types, diagnostics);
+  for (const auto& type : desc.types) kinds.push_back(*type);
   const std::int64_t frame = a.frame ? *a.frame : desc.frame ? desc.frame->value : 0;
   if (diagnostics.has_errors()) return files;
   for (const DataDesc& data : desc.data)
@@ -159,10 +176,12 @@ std::vector<FileInfo> gather(const InfoArguments& a, Diagnostics& diagnostics) {
 
 void run(const InfoArguments& a) {
   Diagnostics diagnostics;
-  const std::vector<FileInfo> files = gather(a, diagnostics);
+  std::vector<UserType> kinds;
+  const std::vector<FileInfo> files = gather(a, kinds, diagnostics);
   print_and_stop_on_errors(diagnostics);
   if (!a.json) {
     for (const FileInfo& file : files) print_text(file);
+    for (const UserType& type : kinds) print_type(type, files);
     return;
   }
   Json all = Json::array();
@@ -176,6 +195,7 @@ void add_info(CLI::App& app, Exit& exit) {
   CLI::App* command = app.add_subcommand("info", "what is in a particle file");
   auto a = std::make_shared<InfoArguments>();
   command->add_option("FILE", a->words, "particle files, a scene, or a generated name")->required();
+  add_type_option(*command, a->types);
   command->add_option("--frame", a->frame, "frame of a series, from 0; -1 is the last")->type_name("N");
   command->add_flag("--json", a->json, "as JSON; an array when there are several files");
   command->callback([a, &exit] {

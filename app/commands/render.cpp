@@ -100,6 +100,7 @@ void check_numbers(const RenderArguments& a, const Outputs& out) {
 
 JobRequest request_of(const RenderArguments& a, const Outputs& outputs) {
   JobRequest request = job_request(a.scene);
+  request.device = a.device.device;
   request.frame = a.frame;
   if (!a.frames.empty()) request.frames = a.frames;
   request.transparent = a.transparent;
@@ -123,6 +124,7 @@ std::string command_of(const RenderArguments& a, const Job& job) {
   for (const std::string& word : a.scene.words) add(word);
   if (job.frame) option("--frame", fmt::format("{}", *job.frame));
   for (const std::string& setting : a.scene.settings) option("--set", setting);
+  for (const std::string& type : a.scene.types) option("--type", type);
   option("--graph", a.scene.graph);
   option("--size", fmt::format("{}x{}", job.size.width, job.size.height));
   if (a.scene.expansion != "auto") option("--expansion", a.scene.expansion);
@@ -311,7 +313,7 @@ void smooth(const RenderArguments& a, Job& job) {
   request_smoothing(job.graph, a.smoothing, automatic);
 }
 
-void run(const RenderArguments& a) {
+Exit run(const RenderArguments& a) {
   const Outputs outputs = parse_outputs(a);
   if (a.panel != 0 && a.panel < 16)
     fail(Exit::Usage, code::panel, {"--panel"}, fmt::format("'{}' is too small for a panel: at least 16 pixels a side", a.panel));
@@ -332,9 +334,11 @@ void run(const RenderArguments& a) {
       warn_of_graph(job, *graph, diagnostics);
       drawing.set_graph(std::move(*graph));
     }
+  print(job.left_out);
   print_and_stop_on_errors(diagnostics);
   if (job.frames.empty()) draw_one(a, outputs, drawing, nullptr);
   else draw_many(a, outputs, job, drawing);
+  return exit_of(job.left_out);
 }
 
 } // namespace
@@ -361,10 +365,7 @@ void add_render(CLI::App& app, Exit& exit) {
   command->add_flag("--stats", a->stats, "on stderr: vertices, primitives, fragments and the components they get, of each pass");
   command->add_option("--panel", a->panel, "draw in panels of at most N pixels a side (4096 where nothing is said), without seams")->type_name("N");
   command->add_option("--bits", a->bits, "bits per channel of a PNG: 8 or 16")->check(CLI::IsMember({8, 16}))->type_name("N");
-  command->callback([a, &exit] {
-    run(*a);
-    exit = Exit::Done;
-  });
+  command->callback([a, &exit] { exit = run(*a); });
 }
 
 } // namespace mote::app

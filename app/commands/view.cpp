@@ -21,6 +21,7 @@ struct ViewArguments {
 
 void run(const ViewArguments& a) {
   JobRequest request = job_request(a.scene);
+  request.device = a.device.device;
   request.frame = a.frame;
   const passes::Expansion expansion = parse_expansion(a.scene.expansion);
 #ifdef MOTE_WINDOW

@@ -14,7 +14,7 @@ std::string cache_directory() {
   return {};
 }
 
-DrawingDevice::DrawingDevice(const DeviceOptions& options) : errors_(std::make_shared<std::vector<gpu::Error>>()) {
+DrawingDevice::DrawingDevice(const DeviceOptions& options) : errors_(std::make_shared<std::vector<gpu::Error>>()), validated_(options.validation) {
   gpu::Error error;
   auto give_up = [&] { fail(Exit::NoDevice, error.code, {}, error.message, error.context); };
   instance_ = gpu::Instance::create({.validation = options.validation, .surface = !options.surface_extensions.empty(), .surface_extensions = options.surface_extensions}, error);

@@ -30,6 +30,7 @@ public:
   [[nodiscard]] gpu::Device& device() { return device_; }
   [[nodiscard]] const gpu::Instance& instance() const { return instance_; }
   [[nodiscard]] const gpu::AdapterInfo& info() const { return adapter_.info(); }
+  [[nodiscard]] bool validated() const { return validated_; } // then pictures show in magenta what shaders find wrong
   // Throws Failure (Failed) A007 if the device has reported an error since the last call, A014 if the validation
   // layer has said something.
   void check();
@@ -39,6 +40,7 @@ private:
   gpu::Adapter adapter_;
   gpu::Device device_;
   std::shared_ptr<std::vector<gpu::Error>> errors_;
+  bool validated_{};
 };
 
 // $XDG_CACHE_HOME/mote, else $HOME/.cache/mote, else empty: no cache. Nothing is made here.

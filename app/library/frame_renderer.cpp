@@ -21,6 +21,7 @@ FrameRenderer::FrameRenderer(DrawingDevice& device, ReadyGraph graph, const Colo
       executor_(device.device(), graph_.plan, graph_.passes) {
   costs_ = device_costs(device.info(), cache_directory(), report_);
   options_.expansion = expansion;
+  options_.show_depth_violation = device.validated();
   options_.frames = frames;
   options_.costs = &costs_;
   options_.chosen = [this](const passes::ExpansionReport& report) { choices_.push_back(report); };

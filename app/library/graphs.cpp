@@ -14,7 +14,7 @@ namespace mote::app {
 namespace {
 
 const std::vector<std::string> scene_keys{"schema", "graph", "color_space", "background", "tolerance", "style",
-                                          "camera", "ambient", "light",     "data",  "frame",      "legend"};
+                                          "camera", "ambient", "light",     "data",  "frame",      "legend",    "particle_types"};
 
 bool is_path(std::string_view graph) { return graph.find('/') != std::string_view::npos || graph.ends_with(".toml"); }
 

@@ -3,6 +3,7 @@
 
 #include "app/codes.hpp"
 #include "app/library/job_text.hpp"
+#include "app/library/user_types.hpp"
 #include "core/data/series.hpp"
 #include "passes/particles/selection.hpp"
 
@@ -104,14 +105,20 @@ void choose_graph(const JobRequest& request, const SceneDesc& desc, GraphRequest
 
 } // namespace
 
+std::vector<std::string> scene_settings(const JobRequest& request) {
+  std::vector<std::string> out = split_settings(request.settings).scene;
+  for (const std::string& folder : request.types) out.push_back("particle_types+=" + folder);
+  return out;
+}
+
 SceneDesc describe_job(const JobRequest& request, Diagnostics& diagnostics, GraphRequest& graph) {
-  SceneDesc desc = describe(request.words, split_settings(request.settings).scene, diagnostics);
+  SceneDesc desc = describe(request.words, scene_settings(request), diagnostics);
   choose_graph(request, desc, graph);
   return desc;
 }
 
 Job load_job(const JobRequest& request, Diagnostics& diagnostics) {
-  return load_described(describe(request.words, split_settings(request.settings).scene, diagnostics), request, diagnostics);
+  return load_described(describe(request.words, scene_settings(request), diagnostics), request, diagnostics);
 }
 
 Job load_described(SceneDesc desc, const JobRequest& request, Diagnostics& diagnostics) {
@@ -128,6 +135,7 @@ Job load_described(SceneDesc desc, const JobRequest& request, Diagnostics& diagn
   if (request.frame) job.desc.frame = Located<std::int64_t>{*request.frame, {"--frame"}};
   for (const DataDesc& data : job.desc.data) job.graph.depth_if_made |= data.cell.drawn; // its edges hide behind particles
   if (diagnostics.has_errors()) return job;
+  take_types(job.desc, request.device, job.left_out);
   job.source = std::make_shared<SceneSource>(job.desc);
   warn_of_limits(job.desc, diagnostics);
   choose_frames(job, request, diagnostics);

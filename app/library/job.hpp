@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // From the words of a user (files, a scene, a generated name; settings; a size) to what a frame needs:
 // the scene, the view of it and the graph. Shared by all commands and the library. Reads files, touches
-// no device. Says what the scene asks for and this version does not draw.
+// no device but to measure particles of types from files. Says what the scene asks for and this version does not draw.
 #pragma once
 
+#include "app/library/device.hpp"
 #include "app/library/graphs.hpp"
 #include "core/scene/realize.hpp"
 #include "core/scene/scene_source.hpp"
@@ -13,6 +14,8 @@ namespace mote::app {
 struct JobRequest {
   std::vector<std::string> words{};      // one scene, one generated name, or data files
   std::vector<std::string> settings{};   // "path=value": of the scene or of the graph
+  std::vector<std::string> types{};      // folders of particle types, besides those that the scene names
+  DeviceOptions device{};                // that measures their particles
   std::optional<std::string> graph{};    // --graph; else the scene's, else "default"
   std::optional<std::int64_t> frame{};   // --frame; else the scene's
   std::optional<std::string> frames{};   // --frames: many pictures
@@ -33,6 +36,7 @@ struct Job {
   bool transparent{};
   GraphRequest graph{};
   Size2d size{};
+  Diagnostics left_out{};                // broken types from files, whose data sets are not in the scene; errors
   [[nodiscard]] View view() const { return view_of(scene.camera); }
   [[nodiscard]] View view_of(const Camera& camera) const { return make_view(camera, size, scene.bounds.diagonal()); }
 };
@@ -44,6 +48,8 @@ Job load_job(const JobRequest& request, Diagnostics& diagnostics);
 void warn_of_graph(const Job& job, const ReadyGraph& graph, Diagnostics& diagnostics);
 // Frame `index` of the series into job.scene. With errors the scene must not be drawn.
 void load_frame(Job& job, std::uint64_t index, Diagnostics& diagnostics);
+// Overrides of the scene alone, for describe() and parse_scene().
+std::vector<std::string> scene_settings(const JobRequest& request);
 // The particles of a generated scene or of files; the scene's own description otherwise. Throws as describe() does.
 SceneDesc describe_job(const JobRequest& request, Diagnostics& diagnostics, GraphRequest& graph);
 

@@ -4,6 +4,7 @@
 #include "app/library/annotated.hpp"
 #include "app/library/job.hpp"
 #include "app/library/panels.hpp"
+#include "app/library/user_types.hpp"
 #include "core/image/png.hpp"
 
 #include <fmt/format.h>
@@ -61,6 +62,7 @@ LoadedScene load(const std::vector<std::string>& names, const std::vector<std::s
     Diagnostics diagnostics;
     data->job = app::load_job(request, diagnostics);
     if (diagnostics.has_errors()) throw_error(diagnostics);
+    diagnostics.append(app::as_warnings(data->job.left_out));
     for (const Diagnostic& d : diagnostics.list()) data->warnings.push_back(to_string(d));
     return LoadedScene(std::move(data));
   });

@@ -113,6 +113,7 @@ private:
   bool take_text(const std::string& changed);  // the document's text as the scene; `changed`: the path that is another
   bool take_job(app::Job next, Diagnostics& diagnostics);
   [[nodiscard]] app::Job described(Diagnostics& diagnostics) const;
+  [[nodiscard]] std::vector<std::string> type_settings() const; // types that the command line names
   void tell(const Diagnostics& diagnostics);
   void watch_files();
   void picked_at(double x, double y);

@@ -2,6 +2,7 @@
 // The part of a session that reads and changes the scene: files, edits, frames, and what a particle is.
 #include "app/codes.hpp"
 #include "app/library/job_text.hpp"
+#include "app/library/user_types.hpp"
 #include "app/window/codes.hpp"
 #include "app/window/session.hpp"
 #include "core/scene/scene_file.hpp"
@@ -38,16 +39,23 @@ bool same_camera(const Camera& a, const Camera& b) {
 
 } // namespace
 
+std::vector<std::string> Session::type_settings() const {
+  app::JobRequest types;
+  types.types = request_.types;
+  return app::scene_settings(types);
+}
+
 app::Job Session::described(Diagnostics& diagnostics) const {
   app::JobRequest request = request_;
   request.size = job_->size;
   if (job_->frame) request.frame = static_cast<std::int64_t>(*job_->frame);
-  SceneDesc desc = parse_scene(document_.text(), document_.name(), document_.folder(), {}, diagnostics);
+  SceneDesc desc = parse_scene(document_.text(), document_.name(), document_.folder(), type_settings(), diagnostics);
   return app::load_described(std::move(desc), request, diagnostics);
 }
 
 bool Session::take_job(app::Job next, Diagnostics& diagnostics) {
   if (diagnostics.has_errors()) return false;
+  diagnostics.append(app::as_warnings(next.left_out));
   const bool camera_changed = !same_camera(next.scene.camera, loaded_camera_);
   const Camera camera = next.scene.camera;
   if (!camera_changed) next.scene.camera = control_.camera(); // the user's view stays
@@ -70,7 +78,7 @@ bool Session::take_text(const std::string& changed) {
   bool taken = false;
   try {
     if (only_light(changed)) {
-      SceneDesc desc = parse_scene(document_.text(), document_.name(), document_.folder(), {}, diagnostics);
+      SceneDesc desc = parse_scene(document_.text(), document_.name(), document_.folder(), type_settings(), diagnostics);
       taken = !diagnostics.has_errors();
       if (taken) {
         job_->desc = std::move(desc);
@@ -199,6 +207,8 @@ void Session::watch_files() {
   const char* ocio = std::getenv("OCIO");
   if (!options_.display.config.empty()) files.push_back(options_.display.config);
   else if (ocio && ocio[0]) files.emplace_back(ocio);
+  for (const auto& type : job_->desc.types)
+    for (const char* file : {"type.toml", "type.glsl"}) files.push_back((type->folder / file).string());
   Diagnostics ignored; // whoever compiles the graph reports
   const app::GraphRequest& graph = job_->graph;
   if (graph.graph.ends_with(".toml")) {

@@ -3,6 +3,7 @@
 
 #include "app/codes.hpp"
 #include "app/library/provenance.hpp"
+#include "app/library/user_types.hpp"
 #include "app/window/host.hpp"
 
 #include <fmt/format.h>
@@ -51,6 +52,7 @@ void run_view(const ViewRequest& request, const std::function<void(const Diagnos
   options.instead += " -o picture.png";
   if (!request.script.empty()) options.script = read_script(request.script, diagnostics);
   app::Job job = app::load_job(request.job, diagnostics);
+  diagnostics.append(app::as_warnings(job.left_out));
   told(diagnostics);
   std::future<ColorConfig> loading = std::async(std::launch::async, [&request] { return ColorConfig::load(request.display.config); });
   Host host(options);

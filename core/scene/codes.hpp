@@ -55,12 +55,14 @@ inline constexpr std::string_view no_bonds = "S043";
 inline constexpr std::string_view wrong_components = "S060";
 inline constexpr std::string_view order_unknown = "S061";
 inline constexpr std::string_view bad_orientation = "S062";
+inline constexpr std::string_view user_type = "S063";
+inline constexpr std::string_view user_type_wrong = "S064";
 } // namespace code
 
 struct SceneCode {
   std::string_view code{}, line{};
 };
-inline constexpr std::array<SceneCode, 46> scene_codes{{
+inline constexpr std::array<SceneCode, 48> scene_codes{{
     {code::scene_unreadable, "error: a scene file is missing, is a folder or may not be read"},
     {code::scene_syntax, "error: a scene file is not TOML"},
     {code::scene_unknown_key, "error: a key that no scene has"},
@@ -107,6 +109,8 @@ inline constexpr std::array<SceneCode, 46> scene_codes{{
     {code::wrong_components, "error: an attribute has another number of components than axes, quaternions, tensors or exponents need"},
     {code::order_unknown, "error: the order of a quaternion's or tensor's components is not said, or is none"},
     {code::bad_orientation, "warning: quaternions that are not of length 1 are made so; those of no length, and singular or negative tensors, are left out"},
+    {code::user_type, "error: a particle type from a folder cannot be read or said, or needs a device"},
+    {code::user_type_wrong, "warning: functions of a particle type from a folder give NaN or do not agree with each other"},
 }};
 
 } // namespace mote

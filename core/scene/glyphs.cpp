@@ -35,6 +35,8 @@ GlyphMaker find_glyph_maker(std::string_view type) {
   return nullptr;
 }
 
+GlyphMaker maker_of(const DataDesc& desc) { return desc.user ? make_user : find_glyph_maker(desc.type); }
+
 const std::vector<std::string>& scene_particle_types() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all{"sphere"};

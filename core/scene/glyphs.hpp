@@ -9,6 +9,7 @@
 
 #include "core/scene/particle_values.hpp"
 
+#include <glm/fwd.hpp>
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -40,10 +41,15 @@ struct Glyphs { // Verdict::Told: left out, and the maker has said why
 // With errors in `diagnostics` the result is not used.
 using GlyphMaker = Glyphs (*)(const FrameContext&, const DataDesc&, const std::vector<double>& radii, Diagnostics&);
 GlyphMaker find_glyph_maker(std::string_view type); // null: spheres, or not known
-const std::vector<std::string>& scene_particle_types(); // that a scene's `type` may name
+GlyphMaker maker_of(const DataDesc& desc);          // the same for types from files, too
+const std::vector<std::string>& scene_particle_types(); // shipped ones that a scene's `type` may name
 
 Glyphs make_axial(const FrameContext& context, const DataDesc& desc, const std::vector<double>& radii, Diagnostics& diagnostics);
 Glyphs make_oriented(const FrameContext& context, const DataDesc& desc, const std::vector<double>& radii, Diagnostics& diagnostics);
+Glyphs make_user(const FrameContext& context, const DataDesc& desc, const std::vector<double>& radii, Diagnostics& diagnostics);
+
+// Unit quaternions of each row, as the scene or the file says; what has none gets Verdict::Told and is reported (S062).
+std::vector<glm::dquat> orientations(const FrameContext& context, const OrientedDesc& desc, std::vector<Verdict>& verdicts, Diagnostics& diagnostics);
 
 // A vector column by name (three numbers a row): S021 when there is none, S022 for text, S041 for other numbers of components.
 const data::Column* wanted_vector(const FrameContext& context, const Located<std::string>& name, Diagnostics& diagnostics);

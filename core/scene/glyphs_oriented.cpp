@@ -304,6 +304,19 @@ template <class From> void fill(const From& from, const FrameContext& context, c
 
 } // namespace
 
+std::vector<glm::dquat> orientations(const FrameContext& context, const OrientedDesc& desc, std::vector<Verdict>& verdicts, Diagnostics& diagnostics) {
+  std::vector<glm::dquat> out(context.frame.count, glm::dquat(1, 0, 0, 0));
+  const Turns turns(context, desc, diagnostics);
+  if (diagnostics.has_errors()) return out;
+  Counts counts, ignored;
+  for (std::uint64_t row = 0; row < out.size(); ++row) {
+    const bool drawn = context.rows.empty() || context.rows[row];
+    if (!turns.at(row, out[row], drawn ? counts : ignored)) verdicts[row] = Verdict::Told;
+  }
+  report(counts, context, diagnostics);
+  return out;
+}
+
 Glyphs make_oriented(const FrameContext& context, const DataDesc& desc, const std::vector<double>& radii, Diagnostics& diagnostics) {
   Glyphs out(desc.type, desc.type == "superquadric" ? 4 : 3, context.frame.count);
   if (desc.oriented.tensor) {

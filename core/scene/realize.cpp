@@ -78,7 +78,7 @@ std::vector<double> radii_of(const FrameContext& context, const DataDesc& desc, 
 
 // The largest reach of a particle from its row's position.
 double largest_reach(const FrameContext& context, const DataDesc& desc, Diagnostics& diagnostics) {
-  const GlyphMaker make = find_glyph_maker(desc.type);
+  const GlyphMaker make = maker_of(desc);
   const std::vector<double> radii = radii_of(context, desc, make, diagnostics);
   double reach = 0.0;
   if (!make) {
@@ -104,7 +104,7 @@ std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& contex
                       fmt::format("the file has {} particles; a data set can have {}", frame.count, most_rows));
     return {};
   }
-  const GlyphMaker make = find_glyph_maker(desc.type);
+  const GlyphMaker make = maker_of(desc);
   std::vector<double> radii = radii_of(context, desc, make, diagnostics);
   ParticleColors colors = particle_colors(context, desc.color, desc.generated.has_value(), diagnostics);
   apply_opacity(context, desc.opacity, colors, diagnostics);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mote::scene_parser {
@@ -117,15 +118,48 @@ void read_periodicity(TableReader& reader, DataDesc& data) {
   }
 }
 
+void read_type(TableReader& reader, std::span<const std::shared_ptr<UserType>> types, DataDesc& data) {
+  std::vector<std::string> names = scene_particle_types();
+  for (const auto& type : types) names.push_back(type->name);
+  const auto type = reader.word("type", names);
+  if (!type) return;
+  data.type = names[*type];
+  if (*type >= scene_particle_types().size()) data.user = types[*type - scene_particle_types().size()];
+}
+
 } // namespace
 
+std::vector<std::shared_ptr<UserType>> read_types(TableReader& top, const std::filesystem::path& folder) {
+  std::vector<std::shared_ptr<UserType>> types;
+  const Node* list = top.find("particle_types");
+  if (!list) return types;
+  if (list->kind != Kind::Array) {
+    top.wrong_type(*list, "particle_types", "a list of folders");
+    return types;
+  }
+  for (const Node& item : list->items) {
+    if (item.kind != Kind::Text || item.text.empty()) {
+      top.wrong_type(item, "particle_types", "a list of folders");
+      continue;
+    }
+    const std::filesystem::path path(item.text);
+    std::shared_ptr<UserType> type = read_user_type(path.is_absolute() || folder.empty() ? path : folder / path, item.loc, top.diagnostics());
+    if (!type) continue;
+    const auto same = [&](const auto& known) { return known->name == type->name; };
+    if (std::none_of(types.begin(), types.end(), same)) types.push_back(std::move(type));
+    else if (std::any_of(types.begin(), types.end(), [&](const auto& known) { return same(known) && known->glsl != type->glsl; }))
+      top.diagnostics().error(code::user_type, item.loc, fmt::format("two particle types are called '{}'", type->name));
+  }
+  return types;
+}
+
 DataDesc read_data(const Node& table, std::size_t index, const std::filesystem::path& folder, bool inherited_linear,
-                   Diagnostics& diagnostics) {
+                   std::span<const std::shared_ptr<UserType>> types, Diagnostics& diagnostics) {
   TableReader reader(table, fmt::format("data[{}]", index), reader_codes, diagnostics);
   DataDesc data;
   data.loc = table.loc;
   read_file(reader, folder, data);
-  if (const auto type = reader.word("type", scene_particle_types())) data.type = scene_particle_types()[*type];
+  read_type(reader, types, data);
   const bool linear = read_color_space(reader, inherited_linear);
   data.radius = read_radius(reader);
   read_shape(reader, data);

@@ -113,17 +113,26 @@ SceneDesc read_tree(const Node& root, const std::string& name, const std::filesy
   scene.lights = read_lights(top.tables("light"), linear, diagnostics);
   if (const auto frame = top.integer("frame")) scene.frame = Located<std::int64_t>{*frame, top.find("frame")->loc};
   scene.legend = read_legend(top);
+  scene.types = read_types(top, folder);
   const std::vector<const Node*> data = top.tables("data");
-  for (std::size_t i = 0; i < data.size(); ++i) scene.data.push_back(read_data(*data[i], i, folder, linear, diagnostics));
+  for (std::size_t i = 0; i < data.size(); ++i) scene.data.push_back(read_data(*data[i], i, folder, linear, scene.types, diagnostics));
   if (!top.find("data")) diagnostics.error(code::scene_missing_key, {name}, "the scene has no [[data]]: there is nothing to draw");
   top.finish();
   diagnostics.sort_by_place();
   return scene;
 }
 
+constexpr std::string_view added_type = "particle_types+=";
+
 void apply_overrides(Node& root, std::span<const std::string> overrides) {
   add_default_light(root);
   for (const std::string& assignment : overrides) {
+    if (assignment.starts_with(added_type)) {
+      Node* list = root.find("particle_types");
+      if (!list) list = &root.set("particle_types", config::array_node({}, {"--type"}));
+      list->items.push_back(config::text_node(assignment.substr(added_type.size()), {"--type"}));
+      continue;
+    }
     if (!assignment.starts_with("style=")) {
       config::apply_override(root, assignment, code::set_path);
       continue;

@@ -12,6 +12,7 @@
 #include "core/math/camera.hpp"
 #include "core/scene/generated.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/user_type.hpp"
 #include "core/scene/value_range.hpp"
 #include "core/toml/node.hpp"
 
@@ -102,6 +103,13 @@ struct OrientedDesc {
   std::optional<Located<std::string>> exponents_of{}; // a column of two numbers
 };
 
+// What an attribute of a type from files is: a column or one number for all.
+struct AttributeDesc {
+  std::string name{};
+  Located<std::string> column{};
+  std::optional<double> constant{};
+};
+
 struct CellDesc { // of the periodic cell
   bool drawn{};
   glm::dvec3 color{0.25}; // working space
@@ -118,6 +126,8 @@ struct DataDesc {
   RadiusDesc radius{};
   AxialDesc axial{};
   OrientedDesc oriented{};
+  std::shared_ptr<UserType> user{};          // null: a shipped type
+  std::vector<AttributeDesc> attributes{};   // of `user`
   ColorDesc color{};
   double alpha{1.0};
   AlphaDesc opacity{};                       // Constant: `alpha`
@@ -159,6 +169,7 @@ struct SceneDesc {
   glm::dvec3 ambient{0.2};                    // color * intensity, working space
   std::vector<Light> lights{};
   std::vector<DataDesc> data{};
+  std::vector<std::shared_ptr<UserType>> types{}; // from folders
   std::optional<Located<std::int64_t>> frame{}; // of every series; negative: from the end; absent: the first, alone
   LegendDesc legend{};
 };
@@ -167,7 +178,8 @@ struct SceneDesc {
 // the ending ".toml", unless it describes raw numbers (mote_raw = 1).
 bool is_scene_path(const std::filesystem::path& path);
 
-// Reads and checks a scene file, with overrides ("path=value") applied. Throws Failure when the file cannot be read,
+// Reads and checks a scene file, with overrides ("path=value") applied. The override "particle_types+=FOLDER" adds a type to
+// those that the scene names. Throws Failure when the file cannot be read,
 // is no TOML, or an override names nothing; everything else goes to `diagnostics` (S003...S025).
 SceneDesc read_scene(const std::filesystem::path& file, std::span<const std::string> overrides, Diagnostics& diagnostics);
 // The same for a text; `folder` resolves relative paths.

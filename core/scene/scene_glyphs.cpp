@@ -129,7 +129,33 @@ void read_oriented(TableReader& reader, DataDesc& data) {
 
 } // namespace
 
+namespace {
+// attributes = { name = "column" or a number }, of a type from files
+void read_attributes(TableReader& outer, DataDesc& data) {
+  const Node* table = outer.table("attributes");
+  if (!table) return;
+  TableReader reader(*table, outer.name_of("attributes"), reader_codes, outer.diagnostics());
+  for (const UserAttribute& wanted : data.user->attributes) {
+    const Node* node = reader.find(wanted.name);
+    if (!node) continue;
+    AttributeDesc said{.name = wanted.name};
+    if (node->kind == Kind::Text) said.column = {node->text, node->loc};
+    else if (const auto number = reader.as_number(*node, wanted.name)) said.constant = *number;
+    else continue;
+    data.attributes.push_back(std::move(said));
+  }
+  reader.finish();
+}
+} // namespace
+
 void read_shape(TableReader& reader, DataDesc& data) {
+  if (data.user) {
+    read_orientation(reader, data.oriented);
+    read_attributes(reader, data);
+    if (data.radius.rule != RadiusRule::Auto)
+      reader.diagnostics().error(code::key_not_of_kind, data.radius.loc, fmt::format("{} is not of type '{}', which takes attributes = {{ ... }}", reader.name_of("radius"), data.type));
+    return;
+  }
   if (find_glyph_maker(data.type) == make_axial) read_axial(reader, data);
   if (find_glyph_maker(data.type) == make_oriented) read_oriented(reader, data);
 }

@@ -33,8 +33,10 @@ AlphaDesc read_opacity(config::TableReader& reader, double& alpha);
 LegendDesc read_legend(config::TableReader& top);
 CameraDesc read_camera(const config::Node& table, Diagnostics& diagnostics);
 std::vector<Light> read_lights(std::span<const config::Node* const> tables, bool linear, Diagnostics& diagnostics);
+// Folders in `particle_types`; those that cannot be read are reported.
+std::vector<std::shared_ptr<UserType>> read_types(config::TableReader& top, const std::filesystem::path& folder);
 DataDesc read_data(const config::Node& table, std::size_t index, const std::filesystem::path& folder, bool linear,
-                   Diagnostics& diagnostics);
+                   std::span<const std::shared_ptr<UserType>> types, Diagnostics& diagnostics);
 // A list of steps, applied from first to last; singular ones are reported and left out.
 glm::dmat4 read_transform(config::TableReader& reader, std::string_view key);
 

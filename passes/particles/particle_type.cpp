@@ -13,7 +13,8 @@ namespace {
 const std::vector<Expansion> rectangles{Expansion::Vertex, Expansion::Geometry, Expansion::Compute}; // a point's square suits spheres only
 const std::vector<Expansion> with_points{Expansion::Vertex, Expansion::Geometry, Expansion::Compute, Expansion::Point};
 const std::vector<Phase> all_phases{Phase::Opaque, Phase::Surface, Phase::Transparent, Phase::Shadow};
-const std::array<ParticleType, 8> types{{
+constexpr std::size_t most_types = 256; // pointers into the list stay
+std::vector<ParticleType> types{
     {"sphere", "center, radius", 1, 1, true, with_points, all_phases},
     {"capsule", "a segment and a radius: a cylinder with round ends", 2, 2, false, rectangles, all_phases},
     {"ellipsoid", "three axes of their own length and direction", 3, 4, false, rectangles, all_phases},
@@ -22,7 +23,7 @@ const std::array<ParticleType, 8> types{{
     {"cylinder", "a segment and two radii, flat or open ends", 3, 3, false, rectangles, all_phases},
     {"cone", "a segment and two radii (one may be 0), closed", 3, 3, false, rectangles, all_phases},
     {"arrow", "a segment, shaft and head as one solid", 3, 3, false, rectangles, all_phases},
-}};
+};
 
 constexpr std::array expansions{Expansion::Vertex, Expansion::Geometry, Expansion::Compute, Expansion::Point};
 constexpr std::array phases{Phase::Opaque, Phase::Surface, Phase::Transparent, Phase::Shadow};
@@ -37,6 +38,11 @@ std::string_view to_string(Phase phase) {
   case Phase::Shadow: return "shadow";
   }
   return "opaque";
+}
+
+void add_particle_type(ParticleType type) {
+  types.reserve(most_types);
+  if (types.size() < most_types) types.push_back(std::move(type));
 }
 
 std::span<const ParticleType> particle_types() { return types; }

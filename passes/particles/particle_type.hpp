@@ -33,6 +33,7 @@ struct ParticleType {
 };
 
 std::span<const ParticleType> particle_types();
+void add_particle_type(ParticleType type); // one from files (user_type.hpp); before anything holds a pointer into the list
 const ParticleType* find_particle_type(std::string_view name);
 std::uint32_t number_of(const ParticleType& type); // its place in the list
 std::vector<std::string> particle_type_names();

@@ -4,7 +4,7 @@
 #include "core/base/diagnostic.hpp"
 #include "passes/particles/frame_uniform.hpp"
 #include "passes/particles/particle_store.hpp"
-#include "shaders/embedded.hpp"
+#include "passes/particles/user_type.hpp"
 
 #include <fmt/format.h>
 
@@ -86,7 +86,7 @@ ParticlePipelines::ParticlePipelines(gpu::Device device, const gpu::BindGroupLay
 gpu::ShaderModule ParticlePipelines::module(const std::string& key) {
   gpu::ShaderModule& module = modules_[key];
   if (!module) {
-    const auto words = shaders::spirv(key);
+    const auto words = particle_spirv(key);
     if (words.empty()) throw std::logic_error("no shipped shader '" + key + "'");
     module = device_.create_shader_module({.label = key, .spirv = words});
   }

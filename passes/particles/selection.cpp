@@ -54,7 +54,8 @@ bool has_own_alpha(const Batch& batch) {
 bool may_be_transparent(const Batch& batch) { return batch.alpha < 1.0 || has_own_alpha(batch); }
 
 bool Selection::draws(const Batch& batch) const {
-  if (!types.empty() && std::find(types.begin(), types.end(), batch.type) == types.end()) return false;
+  const std::string name = batch.type.substr(0, batch.type.find('#')); // of a type from files whose text has changed
+  if (!types.empty() && std::find(types.begin(), types.end(), name) == types.end()) return false;
   if (opacity == Opacity::Opaque) return batch.alpha >= 1.0;
   return opacity == Opacity::All || may_be_transparent(batch);
 }

@@ -2,7 +2,7 @@
 #include "passes/particles/transparent_pipelines.hpp"
 
 #include "passes/particles/frame_uniform.hpp"
-#include "shaders/embedded.hpp"
+#include "passes/particles/user_type.hpp"
 
 #include <fmt/format.h>
 
@@ -77,7 +77,7 @@ TransparentPipelines::TransparentPipelines(gpu::Device device, const gpu::BindGr
 gpu::ShaderModule TransparentPipelines::module(const std::string& key) {
   gpu::ShaderModule& module = modules_[key];
   if (!module) {
-    const auto words = shaders::spirv(key);
+    const auto words = particle_spirv(key);
     if (words.empty()) throw std::logic_error("no shipped shader '" + key + "'");
     module = device_.create_shader_module({.label = key, .spirv = words});
   }

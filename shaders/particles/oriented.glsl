@@ -3,7 +3,7 @@
 // of the bounding ball), (quaternion x, y, z, w), (half lengths of the axes, -) and, of the superquadric, (e1, e2, -, -); the
 // particle in its own space; a ray in its axes. A quaternion counts by its direction. These solids are symmetric about each
 // plane of their axes, so a mirroring placement turns an axis at most into its opposite.
-// A type defines record_vec4s before it includes this.
+// A type defines record_vec4s before it includes this, and HANDED if its solid is not symmetric.
 #ifndef MOTE_ORIENTED_GLSL
 #define MOTE_ORIENTED_GLSL
 
@@ -22,6 +22,9 @@ struct Particle {
   vec3 x, y;   // own space, as all that follows: the first two axes, unit; the third is their cross product
   vec3 size;
   vec2 shape;
+#ifdef HANDED
+  float hand;  // -1 where a placement mirrors: of the third axis
+#endif
 #ifdef NEAR_EYE
   vec3 rest;   // center - float32(center)
 #endif
@@ -38,6 +41,10 @@ Particle oriented(vec4 record[record_vec4s], Placement at, vec3 center, float bo
   p.y = normalize(y - dot(p.x, y) * p.x);
   p.size = scaled(at, 1.0) * record[2].xyz;
   p.shape = record_vec4s > 3 ? record[record_vec4s - 1].xy : vec2(1.0);
+#ifdef HANDED
+  vec3 z = turned(at, vec3(s * (q.x * q.z + q.w * q.y), s * (q.y * q.z - q.w * q.x), 1.0 - s * (q.x * q.x + q.y * q.y)));
+  p.hand = dot(cross(p.x, p.y), z) < 0.0 ? -1.0 : 1.0;
+#endif
   return p;
 }
 
@@ -60,6 +67,9 @@ Particle unpack(vec4 payload[payload_vec4s]) {
   p.y = payload[2].xyz;
   p.size = vec3(payload[1].w, payload[2].w, payload[3].x);
   p.shape = payload[3].yz;
+#ifdef HANDED
+  p.hand = payload[3].w;
+#endif
 #ifdef NEAR_EYE
   p.rest = payload[4].xyz;
 #endif
@@ -69,13 +79,21 @@ void pack(Particle p, out vec4 payload[payload_vec4s]) {
   payload[0] = vec4(p.center, p.bound);
   payload[1] = vec4(p.x, p.size.x);
   payload[2] = vec4(p.y, p.size.y);
+#ifdef HANDED
+  payload[3] = vec4(p.size.z, p.shape, p.hand);
+#else
   payload[3] = vec4(p.size.z, p.shape, 0.0);
+#endif
 #ifdef NEAR_EYE
   payload[4] = vec4(p.rest, 0.0);
 #endif
 }
 
+#ifdef HANDED
+mat3 axes_of(Particle p) { return mat3(p.x, p.y, p.hand * cross(p.x, p.y)); }
+#else
 mat3 axes_of(Particle p) { return mat3(p.x, p.y, cross(p.x, p.y)); }
+#endif
 float least(vec3 v) { return min(v.x, min(v.y, v.z)); }
 
 OwnRay ray_of(Ray ray, Particle p) {
@@ -106,9 +124,9 @@ UnitRay unit_ray(Ray ray, Particle p) {
 vec3 normal_from_unit(vec3 gradient, Particle p) { return normal_from_own(axes_of(p) * (gradient * (least(p.size) / p.size))); }
 
 // The rectangle of the box around the solid, whose corners lie before the near plane; else that of the ball.
-Proxy box_proxy(Particle p) {
+Proxy box_proxy(Particle p, vec3 size) {
   mat3 axes = axes_of(p);
-  vec3 x = from_own(axes[0] * p.size.x), y = from_own(axes[1] * p.size.y), z = from_own(axes[2] * p.size.z);
+  vec3 x = from_own(axes[0] * size.x), y = from_own(axes[1] * size.y), z = from_own(axes[2] * size.z);
   float z_min = p.center.z - abs(x.z) - abs(y.z) - abs(z.z);
   Proxy parts = Proxy(vec2(1e30), vec2(-1e30), z_min);
   for (int i = 0; i < 8; ++i) {
@@ -119,6 +137,27 @@ Proxy box_proxy(Particle p) {
   }
   return hull_proxy(parts, z_min, p.center, p.bound);
 }
+
+#ifdef TILES
+// The quaternion (w >= 0) of a rotation over 1 + w: three numbers, exact for all rotations.
+vec3 rodrigues(mat3 m) {
+  vec4 squares = 1.0 + vec4(m[0][0] - m[1][1] - m[2][2], m[1][1] - m[0][0] - m[2][2], m[2][2] - m[0][0] - m[1][1], m[0][0] + m[1][1] + m[2][2]);
+  vec3 sums = vec3(m[1][2] + m[2][1], m[2][0] + m[0][2], m[0][1] + m[1][0]), differences = vec3(m[1][2] - m[2][1], m[2][0] - m[0][2], m[0][1] - m[1][0]);
+  float most = max(max(squares.x, squares.y), max(squares.z, squares.w));
+  vec4 q = most == squares.w ? vec4(differences, most) : most == squares.x ? vec4(most, sums.z, sums.y, differences.x)
+           : most == squares.y ? vec4(sums.z, most, sums.x, differences.y) : vec4(sums.y, sums.x, most, differences.z);
+  q *= (q.w < 0.0 ? -1.0 : 1.0) * inversesqrt(dot(q, q));
+  return q.xyz / (1.0 + q.w);
+}
+mat3 from_rodrigues(vec3 r) {
+  float rr = dot(r, r), k = 1.0 / (1.0 + rr);
+  vec3 v = 2.0 * k * r;
+  float w = (1.0 - rr) * k;
+  return mat3(1.0 - 2.0 * (v.y * v.y + v.z * v.z), 2.0 * (v.x * v.y + w * v.z), 2.0 * (v.x * v.z - w * v.y),
+              2.0 * (v.x * v.y - w * v.z), 1.0 - 2.0 * (v.x * v.x + v.z * v.z), 2.0 * (v.y * v.z + w * v.x),
+              2.0 * (v.x * v.z + w * v.y), 2.0 * (v.y * v.z - w * v.x), 1.0 - 2.0 * (v.x * v.x + v.y * v.y));
+}
+#endif
 
 // Outlines of these types are not blended: covered or not, by the sample.
 Outline sampled_outline(bool covered) { return Outline(covered ? 1e3 : -1e3, vec2(1.0, 0.0), 1e3, vec2(0.0)); }

@@ -31,7 +31,8 @@ World& world() {
     EXPECT_TRUE(made->instance) << to_string(error);
     const gpu::Adapter adapter = made->instance.request_adapter({}, error);
     EXPECT_TRUE(adapter) << to_string(error);
-    const gpu::Feature wanted = gpu::Feature::GeometryShader | gpu::Feature::TimestampQuery | gpu::Feature::Subgroups | gpu::Feature::ShaderInt64 | gpu::Feature::Int64Atomics;
+    const gpu::Feature wanted = gpu::Feature::GeometryShader | gpu::Feature::TimestampQuery | gpu::Feature::Subgroups | gpu::Feature::ShaderInt64 |
+                                gpu::Feature::Int64Atomics | gpu::Feature::ShaderFloat64; // the last for twins
     made->device = adapter.request_device({.required_features = wanted & adapter.features(), .fill_new_memory = true}, error);
     EXPECT_TRUE(made->device) << to_string(error);
     made->device.on_uncaptured_error([made](const gpu::Error& e) { made->uncaptured.push_back(to_string(e)); });

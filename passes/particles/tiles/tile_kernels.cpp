@@ -2,6 +2,7 @@
 #include "passes/particles/tiles/tile_kernels.hpp"
 
 #include "passes/particles/tiles/tile_blocks.hpp"
+#include "passes/particles/user_type.hpp"
 #include "passes/runtime_shaders.hpp"
 #include "shaders/embedded.hpp"
 
@@ -61,7 +62,7 @@ bool TileKernels::splats(const gpu::Device& device, const std::string& type) {
 
 gpu::ComputePipeline TileKernels::make(const std::string& shader, const gpu::PipelineLayout& layout, std::span<const gpu::SpecializationConstant> constants,
                                        std::span<const std::uint32_t> words) {
-  if (words.empty()) words = shaders::spirv(shader);
+  if (words.empty()) words = particle_spirv(shader);
   if (words.empty()) throw std::logic_error("no shipped shader '" + shader + "'");
   const gpu::ShaderModule module = device_.create_shader_module({.label = shader, .spirv = words});
   return device_.create_compute_pipeline({.label = shader, .layout = &layout, .compute = {.module = &module, .constants = constants}});
@@ -114,11 +115,11 @@ const gpu::ComputePipeline& TileKernels::shading(const CastKey& key, const Besid
   if (!besides.map && !besides.shadows) return keep(make(shader, cast ? cast_pipelines_ : resolve_pipelines_, constants));
 
   std::vector<gpu::ShaderDefine> defines{{"TILES", "1"}, {"LANES", std::to_string(lanes(device_))}, {words_ == "int64" ? "INT64" : "INT32", "1"}};
-  std::vector<std::pair<std::string, std::string>> made{{"type.glsl", std::string(shaders::text(fmt::format("particles/{}/type.glsl", d.type)))}};
+  std::vector<MadeText> made = type_texts(d.type);
   std::vector<const gpu::BindGroupLayout*> sets{&frame_, cast ? &cast_ : &resolve_};
   if (besides.map) {
     defines.push_back({"PIXEL_MAP", "1"});
-    made.emplace_back("pixel_map.glsl", besides.map->glsl);
+    made.push_back({"pixel_map.glsl", besides.map->glsl});
     if (besides.map->layout) sets.push_back(&besides.map->layout);
   }
   if (besides.shadows) {

@@ -5,7 +5,7 @@ const int record_vec4s = 3;
 #include "particles/oriented.glsl"
 
 bool drawable(Particle p) { return p.bound > 0.0 && least(p.size) >= 0.0; }
-Proxy proxy(Particle p) { return box_proxy(p); }
+Proxy proxy(Particle p) { return box_proxy(p, p.size); }
 
 // A ray along a face meets its plane far away.
 vec3 not_zero(vec3 d) { return mix(d, vec3(1e-20), lessThan(abs(d), vec3(1e-20))); }

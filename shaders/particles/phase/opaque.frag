@@ -40,6 +40,9 @@ void main() {
 
   float depth = encode_depth(t);
   bool violation = show_depth_violation && depth > gl_FragCoord.z;
+#ifdef HAS_ALARM
+  violation = violation || type_alarm;
+#endif
   gl_FragDepth = depth;
 
   Surface at = Surface(ray.origin + t * ray.direction, normal, -normalize(ray.direction));

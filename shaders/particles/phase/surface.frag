@@ -62,6 +62,9 @@ void main() {
   if (!(t > 0.0 && t >= near && t <= frame.sample_near_far.w)) discard;
   gl_FragDepth = encode_depth(t);
   o_color = vec4(v_color.rgb, batch.material.x);
+#ifdef HAS_ALARM
+  if (type_alarm) o_color.rgb = vec3(1.0, 0.0, 1.0);
+#endif
   o_id = v_id;
   o_normal_t = vec4(inside ? -outward : outward, t);
 }

@@ -94,6 +94,9 @@ void main() {
   float alpha = two_surfaces ? 1.0 - sqrt(max(1.0 - v_color.a, 0.0)) : v_color.a;
   float a_in = front ? alpha : 0.0, a_out = back ? alpha : 0.0;
   vec3 c_in = surface_color(ray, particle, hit, false), c_out = surface_color(ray, particle, hit, true);
+#ifdef HAS_ALARM
+  if (type_alarm) c_in = c_out = vec3(1.0, 0.0, 1.0);
+#endif
 
 #if MODE == 0 || MODE == 1
   vec4 c = vec4(c_in * a_in, a_in) + (1.0 - a_in) * vec4(c_out * a_out, a_out);

@@ -7,7 +7,7 @@ const int record_vec4s = 4;
 #include "particles/oriented.glsl"
 
 bool drawable(Particle p) { return least(p.size) > 0.0 && min(p.shape.x, p.shape.y) > 0.0; }
-Proxy proxy(Particle p) { return box_proxy(p); }
+Proxy proxy(Particle p) { return box_proxy(p, p.size); }
 
 // |(a, b)|_p of numbers >= 0, and its derivatives.
 vec3 p_norm(float a, float b, float p) {
@@ -80,25 +80,6 @@ Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return samp
 
 #ifdef TILES
 Proxy tile_proxy(Particle p) { return proxy(p); }
-
-// The quaternion (w >= 0) of a rotation over 1 + w: three numbers, exact for all rotations.
-vec3 rodrigues(mat3 m) {
-  vec4 squares = 1.0 + vec4(m[0][0] - m[1][1] - m[2][2], m[1][1] - m[0][0] - m[2][2], m[2][2] - m[0][0] - m[1][1], m[0][0] + m[1][1] + m[2][2]);
-  vec3 sums = vec3(m[1][2] + m[2][1], m[2][0] + m[0][2], m[0][1] + m[1][0]), differences = vec3(m[1][2] - m[2][1], m[2][0] - m[0][2], m[0][1] - m[1][0]);
-  float most = max(max(squares.x, squares.y), max(squares.z, squares.w));
-  vec4 q = most == squares.w ? vec4(differences, most) : most == squares.x ? vec4(most, sums.z, sums.y, differences.x)
-           : most == squares.y ? vec4(sums.z, most, sums.x, differences.y) : vec4(sums.y, sums.x, most, differences.z);
-  q *= (q.w < 0.0 ? -1.0 : 1.0) * inversesqrt(dot(q, q));
-  return q.xyz / (1.0 + q.w);
-}
-mat3 from_rodrigues(vec3 r) {
-  float rr = dot(r, r), k = 1.0 / (1.0 + rr);
-  vec3 v = 2.0 * k * r;
-  float w = (1.0 - rr) * k;
-  return mat3(1.0 - 2.0 * (v.y * v.y + v.z * v.z), 2.0 * (v.x * v.y + w * v.z), 2.0 * (v.x * v.z - w * v.y),
-              2.0 * (v.x * v.y - w * v.z), 1.0 - 2.0 * (v.x * v.x + v.z * v.z), 2.0 * (v.y * v.z + w * v.x),
-              2.0 * (v.x * v.z + w * v.y), 2.0 * (v.y * v.z - w * v.x), 1.0 - 2.0 * (v.x * v.x + v.y * v.y));
-}
 
 // Rays start in the plane of the center's depth, so that everything is as small as the particle: with m the direction to the
 // center with z = 1, at z (x - m.x, y - m.y, 0) from it.
