@@ -46,6 +46,15 @@ std::string why_not_tiles(const ExpansionNeeds& needs) {
   return {};
 }
 
+// Why the model cannot say what tiles would cost; empty: it can.
+std::string why_no_costs(const ExpansionNeeds& needs, const std::string& type) {
+  if (!type_costs(type)) return fmt::format("what tiles cost with particles of type '{}' was never measured", type);
+  for (const Batch& batch : needs.scene.batches)
+    if (needs.selection.draws(batch) && batch.type != type)
+      return fmt::format("tiles would hold the type '{}' only; what they cost beside particles of type '{}' is not known", type, batch.type);
+  return {};
+}
+
 } // namespace
 
 std::string device_lacks_tiles(const gpu::Device& device) {
@@ -73,9 +82,9 @@ ExpansionChoice choose_expansion(const ExpansionNeeds& needs, const FrameOptions
     if (!refused[0].empty()) fail(Exit::Failed, "P001", {}, refused[0], {"mote graph --kinds prints what works together"});
     ViewContents contents = survey(needs.scene, needs.view, needs.selection);
     contents.aovs = needs.aovs;
-    const bool spheres = std::all_of(needs.scene.batches.begin(), needs.scene.batches.end(), [&](const Batch& b) { return !needs.selection.draws(b) || b.type == "sphere"; });
-    for (std::size_t i = 0; i < refused.size() && !spheres; ++i) // the model was measured with spheres
-      if (costed_expansions[i] == Expansion::Compute && refused[i].empty()) refused[i] = "what tiles cost with other types than spheres is not known yet";
+    if (std::string unknown = why_no_costs(needs, contents.type); !unknown.empty())
+      for (std::size_t i = 0; i < refused.size(); ++i)
+        if (costed_expansions[i] == Expansion::Compute && refused[i].empty()) refused[i] = unknown;
     choice = chooser.choose(options.costs ? *options.costs : shipped_costs(gpu::DeviceType::Cpu), contents, refused, options.frames);
   } else {
     const std::string reason = why_not(options.expansion, needs);

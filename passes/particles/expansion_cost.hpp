@@ -21,6 +21,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mote::passes {
@@ -46,6 +47,15 @@ struct DeviceCosts {
 // Cpu: what mote calibrate found on lavapipe (two cores, Debian 12), of which only the ratios count elsewhere; estimates that no figure stands behind for other kinds.
 DeviceCosts shipped_costs(gpu::DeviceType type);
 
+// What particles of a type cost, times what the model says for spheres of their bounding balls, and once more for the larger
+// pipelines of their tiles. Measured on lavapipe with 1e5 particles; ratios, so they serve elsewhere until something better is known.
+struct TypeCosts {
+  std::string_view type{};
+  double raster{1.0}, tiles{1.0}, pipeline_ms{};
+};
+// Null: not measured.
+const TypeCosts* type_costs(std::string_view type);
+
 inline constexpr double seen_layers = 4.0; // of particles that tiles cast before the rest is culled
 
 // What a view holds, on average; estimated from a sample of the chunks.
@@ -57,6 +67,7 @@ struct ViewContents {
   double span{};       // pixels of the rectangle that bounds what is in view
   double pixels{};     // of the picture
   std::uint32_t aovs{};
+  std::string type{"sphere"}; // of most particles in view
   std::uint64_t chunks{}, chunks_total{}; // in view (estimated), of the scene
   [[nodiscard]] double depth() const;     // layers of particles, mean over the span
 };

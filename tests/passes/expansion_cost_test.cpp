@@ -187,4 +187,24 @@ TEST(FitCosts, NothingIsNegative) {
   EXPECT_GT(found.particle_ns + found.unit_ns, 10.0);
 }
 
+// One picture of arrows is not worth the pipelines of their tiles; a window is. Superquadrics cost more everywhere.
+TEST(Choice, TypesHaveCostsOfTheirOwn) {
+  Scene scene = cube_of(100000, 0.08);
+  scene.batches[0].type = "arrow";
+  const DeviceCosts costs = shipped_costs(gpu::DeviceType::Cpu);
+  const ViewContents arrows = survey(scene, from(60), {});
+  EXPECT_EQ(arrows.type, "arrow");
+  ExpansionChooser once, often;
+  EXPECT_EQ(once.choose(costs, arrows, all_can, 1).expansion, Expansion::Vertex);
+  EXPECT_EQ(often.choose(costs, arrows, all_can, 1000).expansion, Expansion::Compute);
+  ViewContents spheres = arrows, superquadrics = arrows;
+  spheres.type = "sphere";
+  superquadrics.type = "superquadric";
+  for (const Expansion expansion : {Expansion::Vertex, Expansion::Compute}) {
+    EXPECT_LE(predict_ms(costs, expansion, spheres), predict_ms(costs, expansion, arrows));
+    EXPECT_LT(3 * predict_ms(costs, expansion, arrows), predict_ms(costs, expansion, superquadrics));
+  }
+  EXPECT_EQ(type_costs("torus"), nullptr);
+}
+
 } // namespace
