@@ -102,12 +102,12 @@ Hit solve(Given g) {
   const float off = 1.0;
 #endif
   vec3 l;
-  float middle;
-  shift_to_nearest(f, d, l, middle);
+  vec2 middle;
+  shift_in_parts(f, d, l, middle);
   float distance = length(l) * off, D = (r - distance) * (r + distance);
   if (D < 0.0) return missed();
   float h = sqrt(D / dot(d, d) * off) * off;
-  return hit_at(middle - h, (l - h * d) / r * off);
+  return hit_at(middle.x + (middle.y - h), (l - h * d) / r * off);
 #endif
 }
 

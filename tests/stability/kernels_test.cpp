@@ -34,7 +34,7 @@ TEST_F(Stability, FC01_NormalsAtAnyDistance) {
     const SphereErrors e = sphere_errors(device(), mote, kappa, false);
     EXPECT_LE(e.normal, kappa <= 1e4 ? 5e-7 : 2e-5) << kappa;
     if (kappa >= 10.0) {
-      EXPECT_LE(e.ulps, 2.0) << kappa;
+      EXPECT_LE(e.ulps, 1.0) << kappa;
     }
     EXPECT_EQ(e.missed, 0.0) << kappa;
   }

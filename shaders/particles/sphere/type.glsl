@@ -81,17 +81,17 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
 #else
 bool intersect(Ray ray, Particle p, out Interval hit) {
   vec3 l;
-  float middle;
+  vec2 middle; // a sum: its first part has few bits, so that only one rounding is as large as the distance's
   if (orthographic) { // already at the point nearest to the center: no distance enters
     l = vec3(ray.origin.xy - p.center.xy, 0.0);
-    middle = p.center.z;
+    middle = vec2(p.center.z, 0.0);
   } else {
-    shift_to_nearest(ray.origin - p.center, ray.direction, l, middle);
+    shift_in_parts(ray.origin - p.center, ray.direction, l, middle);
   }
   float distance = length(l);
   float d2 = (p.radius - distance) * (p.radius + distance); // never r^2 - l^2: cancels at the limb
   float h = sqrt(max(d2, 0.0) * (1.0 / dot(ray.direction, ray.direction)));
-  hit = Interval(middle - h, middle + h, vec4(l, h), vec4(0.0));
+  hit = Interval(middle.x + (middle.y - h), middle.x + (middle.y + h), vec4(l, h), vec4(0.0));
   return d2 >= 0.0;
 }
 #endif
