@@ -114,6 +114,41 @@ glm::dvec3 blend_adaptive(const Stack& stack, std::size_t k) {
   return color;
 }
 
+// What is before depth x blocks at least what the two other places of the three that have the same moments as the layers block
+// before it, and a part of x's own weight. Bias and that part: the paper's (5e-7, 0.25); depths by their logarithm, -1..1.
+glm::dvec3 blend_moments(const Stack& stack) {
+  constexpr double bias = 5e-7, own_part = 0.25, nearest = 5.0, farthest = 50.0;
+  const auto place = [&](const Layer1& l) { return 2.0 * std::log(l.z / nearest) / std::log(farthest / nearest) - 1.0; };
+  double moments[5] = {};
+  for (const Layer1& l : stack) {
+    const double absorbance = -std::log1p(-std::min(l.alpha, 0.9999)), x = place(l);
+    for (double power = 1.0; double& m : moments) {
+      m += absorbance * power;
+      power *= x;
+    }
+  }
+  const double total = moments[0];
+  const double mean[5] = {1, 0, 0.375, 0, 0.375};
+  for (int k = 0; k < 5; ++k) moments[k] = (1.0 - bias) * moments[k] / total + bias * mean[k];
+  const double* m = moments;
+  const glm::dmat3 hankel = glm::inverse(glm::dmat3(m[0], m[1], m[2], m[1], m[2], m[3], m[2], m[3], m[4]));
+  glm::dvec3 sum(0);
+  double weights = 0.0;
+  for (const Layer1& l : stack) {
+    const double x = place(l);
+    const glm::dvec3 q = hankel * glm::dvec3(1, x, x * x); // the other two places: roots of q.x + q.y t + q.z t^2
+    const double half = -0.5 * q.y / q.z, spread = std::sqrt(std::max(half * half - q.x / q.z, 0.0));
+    const double a = half - spread, b = half + spread;
+    const auto weight = [&](double at, double one, double two) { return (m[2] - m[1] * (one + two) + one * two) / ((at - one) * (at - two)); };
+    const double before = (a < x ? weight(a, x, b) : 0.0) + (b < x ? weight(b, x, a) : 0.0) + own_part * weight(x, a, b);
+    const double seen = l.alpha * std::exp(-total * std::clamp(std::isfinite(before) ? before : 0.0, 0.0, 1.0));
+    sum += seen * l.color;
+    weights += seen;
+  }
+  const double through = std::exp(-total);
+  return sum / std::max(weights, 1e-12) * (1.0 - through) + white * through;
+}
+
 glm::dvec3 blend_8bit(const Stack& stack, bool back_to_front) {
   const Stack s = sorted(stack);
   if (back_to_front) {
@@ -145,6 +180,7 @@ chart::Panel stack_panel() {
                               {"4 nodes, merged", false, [](const Stack& s) { return blend_adaptive(s, 4); }},
                               {"8 nodes, merged", false, [](const Stack& s) { return blend_adaptive(s, 8); }},
                               {"weighted sums", true, blend_weighted},
+                              {"four moments", true, blend_moments},
                               {"stochastic, 8 samples", true, [&](const Stack& s) { return blend_stochastic(s, 8, ++seed); }},
                               {"stochastic, 64 samples", false, [&](const Stack& s) { return blend_stochastic(s, 64, ++seed); }},
                               {"as they come", true, blend_unsorted}};

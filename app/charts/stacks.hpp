@@ -23,6 +23,7 @@ glm::dvec3 blend_weighted(const Stack& stack);                  // McGuire and B
 glm::dvec3 blend_stochastic(const Stack& stack, int samples, std::uint64_t seed); // Enderton et al. 2010
 glm::dvec3 blend_first(const Stack& stack, std::size_t k, bool tail); // nearest k layers, the rest dropped or averaged
 glm::dvec3 blend_adaptive(const Stack& stack, std::size_t k);   // k nodes, the last two merged (Salvi and Vaidyanathan 2014)
+glm::dvec3 blend_moments(const Stack& stack);                   // four power moments of absorbance (Muenstermann et al. 2018); z in 5..50
 glm::dvec3 blend_8bit(const Stack& stack, bool back_to_front);  // by distance, rounded to 8 bits after each layer
 
 chart::Panel stack_panel();
