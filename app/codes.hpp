@@ -40,6 +40,7 @@ inline constexpr std::string_view bad_costs = "A040";
 inline constexpr std::string_view no_cache = "A041";
 inline constexpr std::string_view cannot_present = "A050";
 inline constexpr std::string_view script = "A051";
+inline constexpr std::string_view trace_beyond = "A060";
 } // namespace code
 
 struct AppCode {
@@ -76,6 +77,7 @@ inline constexpr std::array<AppCode, 30> app_codes{{
     {code::no_cache, "failed: there is no folder for caches, where calibrate keeps what it measured"},
     {code::cannot_present, "failed: the display cannot show the pictures of a Vulkan device"},
     {code::script, "input: a line of a window's script that cannot be understood"},
+    {code::trace_beyond, "failed: a pass draws in a way that trace-pixel does not follow"},
 }};
 
 } // namespace mote::app

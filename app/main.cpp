@@ -69,6 +69,7 @@ Exit run(int argc, char** argv) {
   add_compare(app, exit);
   add_chart(app, exit);
   add_explain(app, exit);
+  add_trace_pixel(app, exit);
   add_calibrate(app, exit);
   add_graph(app, exit);
   add_check(app, exit);

@@ -29,6 +29,7 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 20> p
     {"P020", "warning: the device lacks what tiles need, so auto draws without them"},
     {"P021", "failed: analytic edges are asked of a particle type whose outlines are sampled only"},
     {"P022", "error: a particle type from a folder does not compile; the rest is drawn and the exit status is 3"},
+    {"P023", "failed: a step for teaching that a particle type does not have"},
 }};
 
 } // namespace mote::passes

@@ -10,10 +10,12 @@
 #include "passes/particles/pipelines.hpp"
 #include "passes/particles/quad_indices.hpp"
 #include "passes/particles/selection.hpp"
+#include "passes/particles/steps.hpp"
 #include "passes/particles/tiles/tiled_drawing.hpp"
 #include "passes/sampling/accumulator.hpp"
 #include "passes/sampling/pattern.hpp"
 #include "passes/scratch.hpp"
+#include "passes/shadows/shadow_inputs.hpp"
 #include "passes/shadows/surface_shading.hpp"
 #include "passes/states.hpp"
 
@@ -56,11 +58,12 @@ public:
                        .makes = rg::TextureSpec{.format = aov.format}, .optional = true, .copied_into = true});
     selection_ = read_selection(params, params.has("blend") ? Opacity::All : Opacity::Opaque);
     states_ = read_states(params);
-    read_shadow_slots(slots, params);
+    shadow_inputs_.declare(slots, params);
     offsets_ = read_samples(params);
     analytic_edges_ = params.word("edges", "sampled", {"sampled", "analytic"}, "analytic: outlines blended by what they cover of a pixel") == "analytic";
-    if (analytic_edges_ && (offsets_.size() > 1 || params.has("blend")))
-      params.error("P006", "edges", fmt::format("is \"analytic\", which does not go with {}", offsets_.size() > 1 ? "several samples a pixel" : "blend"));
+    steps_ = read_steps(params);
+    if (analytic_edges_ && (offsets_.size() > 1 || params.has("blend") || !steps_.whole()))
+      params.error("P006", "edges", fmt::format("is \"analytic\", which does not go with {}", offsets_.size() > 1 ? "several samples a pixel" : steps_.whole() ? "blend" : "steps"));
   }
 
   void prepare(rg::PassContext& context) override {
@@ -70,8 +73,9 @@ public:
     for (const AovSlot& aov : aov_slots)
       if (context.connected(aov.name)) aovs_ |= aov.bit;
     depth_ = context.format("depth");
-    deferred_ = std::any_of(shadow_slots_.begin(), shadow_slots_.end(), [&](const std::string& slot) { return context.connected(slot); });
+    deferred_ = shadow_inputs_.connected(context);
     if (deferred_ && states_.blend != 0) fail(Exit::BadInput, "P006", {}, "a pass with a shadow map shades each pixel once; it does not go with blend");
+    if (deferred_ && !steps_.whole()) fail(Exit::BadInput, "P006", {}, fmt::format("a pass with a shadow map draws the whole of its particles; it does not go with steps = \"{}\"", to_string(steps_.step)));
   }
 
   gpu::Color clear_value(std::string_view slot, const rg::FrameInput& frame) override {
@@ -96,7 +100,7 @@ public:
     choose(context);
     const Expansion expansion = report_.choice.expansion;
     const double largest_point = expansion == Expansion::Point ? double{gpu::max_point_size(device)} : 0.0;
-    find_lights(context);
+    lights_ = shadow_inputs_.lights(context);
     surfaces_first_ = deferred_;
     const bool tiled = expansion == Expansion::Compute && place_tiles(context, store);
     if (surfaces_first_ && expansion != Expansion::Compute) update_surfaces(context, surfaces_, false);
@@ -107,6 +111,7 @@ public:
     raster_ = expansion == Expansion::Geometry ? expansion : Expansion::Vertex;
     reserve_indices(device, placed_);
     if (offsets_.size() > 1) return record_samples(context, tiled);
+    if (!steps_.whole()) return record_steps(context);
     if (tiled) record_tiles(context);
     if (tiled && !surfaces_first_ && placed_.draws.empty()) return;
     if (analytic_edges_) return record_edges(context);
@@ -212,6 +217,8 @@ private:
       key.aovs = into.aovs;
       key.opaque_only = key.per_particle_color && selection_.opacity == Opacity::Opaque;
       key.states = states_;
+      if (into.aovs == 0) key.step = steps_.step;
+      if (key.step == Step::Points) key.proxy_slack = static_cast<float>(0.5 * steps_.point_size) - 0.04f; // what every proxy has
       key.show_depth_violation = context.frame().get<FrameOptions>().show_depth_violation;
       if (surfaces) {
         unlit(key);
@@ -266,14 +273,6 @@ private:
     surfaces->update(context.frame().get<Scene>(), context.frame().get<View>(), lights_);
   }
 
-  void find_lights(const rg::PassContext& context) {
-    const ShadowMaps& maps = context.frame().get<ParticleStore>().shadow_maps();
-    lights_.clear();
-    for (const std::string& slot : shadow_slots_)
-      if (const gpu::Texture map = context.connected(slot) ? context.whole_texture(slot) : gpu::Texture())
-        if (const ShadowMapInfo* info = maps.find(map)) lights_.push_back({map, *info});
-  }
-
   // Depth and AOVs are those of the pixel's center, from a picture of their own, if anybody looks at them.
   void record_center(rg::PassContext& context, bool tiled) {
     if (aovs_ == 0 && !context.kept("depth")) return;
@@ -281,6 +280,12 @@ private:
       record_tiles(context);
     else
       draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_first_ ? surfaces_.get() : nullptr);
+  }
+
+  // AOVs are those of the whole thing, from a picture of their own.
+  void record_steps(rg::PassContext& context) {
+    if (aovs_ != 0) draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), nullptr);
+    draw_picture(context, frame_group_, {{context.texture("color")}, {clear_value("color", context.frame())}}, 0, context.texture("depth"), nullptr);
   }
 
   void record_edges(rg::PassContext& context) {
@@ -320,21 +325,12 @@ private:
     accumulator_->resolve(context.encoder(), color);
   }
 
-  // One input a shadow map: "shadow", "shadow_2", ...
-  void read_shadow_slots(std::vector<rg::Slot>& slots, rg::Params& params) {
-    shadow_slots_.clear();
-    const auto count = params.integer("shadows", 1, {.min = 0, .max = max_lights}, "how many inputs for shadow maps: shadow, shadow_2, ...");
-    for (std::int64_t i = 1; i <= count; ++i) {
-      shadow_slots_.push_back(i == 1 ? "shadow" : fmt::format("shadow_{}", i));
-      slots.push_back({.name = shadow_slots_.back(), .access = rg::Access::Sampled, .summary = "map of a shadow_map pass", .optional = true});
-    }
-  }
-
   void choose(rg::PassContext& context) {
     const Scene& scene = context.frame().get<Scene>();
     for (const Batch& batch : scene.batches)
       if (const ParticleType* type = find_particle_type(batch.type); analytic_edges_ && selection_.draws(batch) && type && !type->analytic_edges)
         fail(Exit::Failed, "P021", {}, fmt::format("edges = \"analytic\" is not for particle type '{}'", batch.type), {"edges = \"sampled\" with samples draws every type with smooth outlines"});
+    check_steps(steps_, scene, selection_);
     const FrameOptions& options = context.frame().get<FrameOptions>();
     if (scene.lights.size() > max_lights)
       fail(Exit::Failed, "P003", {}, fmt::format("the scene has {} lights; a frame holds {}", scene.lights.size(), max_lights));
@@ -342,7 +338,7 @@ private:
     const ExpansionNeeds needs{device, scene, context.frame().get<View>(), selection_, states_, context.format("color"),
                                static_cast<std::uint32_t>(std::popcount(aovs_)),
                                analytic_edges_ ? "analytic edges" : "",
-                               deferred_ ? Phase::Surface : Phase::Opaque};
+                               deferred_ ? Phase::Surface : Phase::Opaque, steps_.step};
     report_ = {.kind = "opaque_impostors", .choice = choose_expansion(needs, options, chooser_), .automatic = options.expansion == Expansion::Auto};
     lacks_tiles_ = report_.automatic ? device_lacks_tiles(device) : std::string();
   }
@@ -360,7 +356,8 @@ private:
 
   Selection selection_;
   DrawStates states_;
-  std::vector<std::string> shadow_slots_;
+  Steps steps_;
+  ShadowInputs shadow_inputs_;
   bool deferred_{}; // a shadow map is connected
   bool surfaces_first_{}; // in this frame: particles leave surfaces, which are shaded once
   std::vector<MappedLight> lights_;

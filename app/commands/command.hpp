@@ -66,6 +66,7 @@ void add_info(CLI::App& app, Exit& exit);
 void add_bench(CLI::App& app, Exit& exit);
 void add_compare(CLI::App& app, Exit& exit);
 void add_chart(CLI::App& app, Exit& exit);
+void add_trace_pixel(CLI::App& app, Exit& exit);
 void add_explain(CLI::App& app, Exit& exit);
 void add_calibrate(CLI::App& app, Exit& exit);
 void add_graph(CLI::App& app, Exit& exit);

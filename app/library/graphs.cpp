@@ -96,7 +96,7 @@ void set_opaque_passes(rg::GraphDesc& graph, const GraphRequest& request, Diagno
   for (std::size_t i = 0; i < graph.passes.size(); ++i) {
     const rg::PassDesc& pass = graph.passes[i];
     if (pass.kind.text != "opaque_impostors") continue;
-    const bool says = rg::find(pass.params, "samples") || rg::find(pass.params, "edges") || rg::find(pass.params, "blend");
+    const bool says = rg::find(pass.params, "samples") || rg::find(pass.params, "edges") || rg::find(pass.params, "blend") || rg::find(pass.params, "steps");
     if (says && request.opaque_settings_yield) continue;
     for (const std::string& setting : request.opaque_settings) rg::apply_setting(graph, graph.passes[i].name.text + "." + setting, diagnostics);
   }

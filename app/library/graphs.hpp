@@ -28,7 +28,7 @@ struct GraphRequest {
   std::filesystem::path folder{};           // that a relative path is relative to
   std::vector<std::string> settings{};      // "pass.parameter=value"
   std::vector<std::string> opaque_settings{}; // "parameter=value" for every pass of kind opaque_impostors
-  bool opaque_settings_yield{};             // to passes that say something of samples, edges or blend themselves
+  bool opaque_settings_yield{};             // to passes that say something of samples, edges, blend or steps themselves
   std::vector<Aov> aovs{};
   bool every_aov{};                         // whatever AOVs the graph makes
   std::vector<rg::LocatedString> dumps{};   // further sources

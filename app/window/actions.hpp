@@ -18,6 +18,7 @@ enum class Action : std::uint8_t {
   ResetView, FrameAll, AxisX, AxisXBack, AxisY, AxisYBack, AxisZ, AxisZBack, ToggleProjection, ToggleTrackball,
   ToggleFullScreen, TogglePanels, ToggleHelp, ToggleLegend, Screenshot, CopyCamera, Reload, Save, Undo, Redo,
   Play, NextFrame, PreviousFrame, FirstFrame, LastFrame, CenterHere, Release, Quit,
+  StepProxy, StepDiscard, StepShade, StepDepth, StepQuadratic, StepPoints, // order of passes::Step
 };
 
 struct Shortcut {

@@ -189,6 +189,13 @@ void Session::act(Action action) {
       return moved(now, false);
     }
     return message("there is no particle to turn about");
+  case Action::StepProxy:
+  case Action::StepDiscard:
+  case Action::StepShade:
+  case Action::StepDepth:
+  case Action::StepQuadratic:
+  case Action::StepPoints:
+    return show_step(static_cast<passes::Step>(static_cast<int>(action) - static_cast<int>(Action::StepProxy)));
   case Action::Quit:
     if (document_.changed() && now - quit_asked_ > message_s) {
       quit_asked_ = now;

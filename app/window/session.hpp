@@ -117,6 +117,7 @@ private:
   void tell(const Diagnostics& diagnostics);
   void watch_files();
   void picked_at(double x, double y);
+  void show_step(passes::Step step); // of the first pass that has steps
   [[nodiscard]] std::optional<Picked> describe(std::uint32_t id) const;
   void play(double now);
   void update_annotations();

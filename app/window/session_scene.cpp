@@ -120,6 +120,15 @@ bool Session::set(const std::string& path, const std::string& value, bool merge)
   return false;
 }
 
+void Session::show_step(passes::Step step) {
+  for (const rg::PlannedPass& pass : painter_.renderer().plan().passes)
+    if (pass.kind == "opaque_impostors") {
+      if (set(pass.name + ".steps", "\"" + passes::to_string(step) + "\"")) message("step: " + passes::to_string(step));
+      return;
+    }
+  message("no pass of this graph has steps");
+}
+
 void Session::undo() {
   const std::string what = document_.last_change();
   if (!document_.undo()) return message("there is nothing to undo");

@@ -70,6 +70,7 @@ std::string why_not(Expansion expansion, const ExpansionNeeds& needs) {
   const DrawStates tested{.cull = expansion == Expansion::Compute ? Cull::None : needs.states.cull};
   if ((expansion == Expansion::Compute || expansion == Expansion::Point) && needs.states != tested)
     return fmt::format("expansion '{}' draws with the default depth_test, depth_write, blend and cull only", to_string(expansion));
+  if (std::string step = why_not(needs.step, expansion); !step.empty()) return step;
   if (std::string type = why_not_type(expansion, needs); !type.empty()) return type;
   return expansion == Expansion::Compute ? why_not_tiles(needs) : std::string();
 }

@@ -6,6 +6,7 @@
 #include "core/gpu/gpu.hpp"
 #include "passes/particles/expansion_cost.hpp"
 #include "passes/particles/particle_type.hpp"
+#include "passes/particles/steps.hpp"
 #include "passes/states.hpp"
 
 #include <string>
@@ -23,6 +24,7 @@ struct ExpansionNeeds {
   std::uint32_t aovs{}; // how many are made
   std::string_view beyond_tiles{}; // what the pass does besides and tiles do not ("analytic edges"); empty: nothing
   Phase phase{Phase::Opaque};      // or Surface, Shadow
+  Step step{Step::Depth};
 };
 
 // A sentence, or empty: `expansion` can draw it.

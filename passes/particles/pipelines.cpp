@@ -18,6 +18,7 @@ constexpr std::size_t most_pipelines = 256; // far above what scenes use; beyond
 std::string fragment_of(const ParticlePipelineKey& key) {
   if (key.phase == Phase::Surface) return key.edges ? "surface.frag/edges" : "surface.frag";
   if (key.phase == Phase::Shadow) return key.targets.empty() ? "shadow.frag/depth" : "shadow.frag/ids";
+  if (key.step != Step::Depth) return "steps.frag";
   return fmt::format("opaque.frag/aov{}", key.aovs);
 }
 }
@@ -25,7 +26,7 @@ std::string fragment_of(const ParticlePipelineKey& key) {
 std::string to_string(const ParticlePipelineKey& k) {
   return fmt::format("{}{}{} / {} / {} aov={} {} lights={}{} specular={}{}", k.type, k.affine ? " affine" : "", k.near_eye ? " near" : "", to_string(k.expansion), to_string(k.phase), k.aovs,
                      k.orthographic ? "orthographic" : "perspective", k.light_count, k.local_lights ? " local" : "",
-                     k.specular_model, k.per_particle_color ? " colors" : "") + (k.head_light_only ? " head light" : "");
+                     k.specular_model, k.per_particle_color ? " colors" : "") + (k.head_light_only ? " head light" : "") + (k.step != Step::Depth ? " " + to_string(k.step) : "");
 }
 
 ParticlePipelineKey key_for(const Scene& scene, const View& view, const Batch& batch) {
@@ -100,10 +101,12 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   const bool geometry = key.expansion == Expansion::Geometry;
   const bool point = key.expansion == Expansion::Point;
   const std::string folder = key.type + (key.affine ? "/affine" : "") + (key.near_eye ? "/near" : "");
-  const gpu::ShaderModule vertex = module(folder + (geometry ? "/geometry.vert" : point ? "/point.vert" : "/vertex.vert"));
+  const gpu::ShaderModule vertex = module(folder + (geometry ? "/geometry.vert" : point ? "/point.vert" : key.step == Step::Points ? "/fixed.vert" : "/vertex.vert"));
   const gpu::ShaderModule fragment = module(folder + "/" + fragment_of(key));
   const gpu::ShaderModule geometry_module = geometry ? module(folder + "/geometry.geom") : gpu::ShaderModule();
   const std::vector<gpu::SpecializationConstant> constants = particle_constants(key);
+  std::vector<gpu::SpecializationConstant> fragment_constants = constants;
+  if (key.step != Step::Depth) fragment_constants.push_back(gpu::spec(27, static_cast<std::uint32_t>(key.step)));
   std::vector<gpu::ColorTargetState> targets;
   for (const gpu::TextureFormat format : key.targets)
     targets.push_back({.format = format, .write_mask = targets.size() < key.written ? gpu::ColorWrite::All : gpu::ColorWrite::None});
@@ -115,7 +118,7 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   descriptor.layout = &layout_;
   descriptor.vertex = {.module = &vertex, .constants = constants};
   if (geometry) descriptor.geometry = gpu::ProgrammableStage{.module = &geometry_module, .constants = constants};
-  descriptor.fragment = gpu::ProgrammableStage{.module = &fragment, .constants = constants};
+  descriptor.fragment = gpu::ProgrammableStage{.module = &fragment, .constants = fragment_constants};
   descriptor.topology = geometry || point ? gpu::Topology::PointList : gpu::Topology::TriangleList;
   descriptor.depth = gpu::DepthState{.format = key.depth, .write = key.states.depth_write, .compare = encoded(key.states.depth_test)};
   descriptor.targets = targets;

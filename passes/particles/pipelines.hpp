@@ -8,6 +8,7 @@
 #include "core/gpu/gpu.hpp"
 #include "core/scene/scene.hpp"
 #include "passes/particles/particle_type.hpp"
+#include "passes/particles/steps.hpp"
 #include "passes/states.hpp"
 
 #include <cstdint>
@@ -38,6 +39,7 @@ struct ParticlePipelineKey {
   float proxy_slack{}; // pixels
   bool edges{};        // phase Surface: coverage, too
   std::uint32_t written{0xFFFFFFFF}; // targets from this one on are left alone
+  Step step{Step::Depth};            // phase Opaque, without AOVs
   std::uint32_t type_number{};       // phase Shadow: what a map of casters says
   std::vector<gpu::TextureFormat> targets{};
   gpu::TextureFormat depth{};

@@ -147,6 +147,20 @@ TEST_F(SessionTest, EditsUndoAndSave) {
   EXPECT_EQ(draw(), saved) << "the saved scene shows what was saved";
 }
 
+TEST_F(SessionTest, StepsByKeys) {
+  open({path("scene.toml")});
+  const std::vector<std::byte> whole = draw();
+  press('1', {.shift = true});
+  EXPECT_THAT(said(), HasSubstr("step: proxy"));
+  const std::vector<std::byte> proxy = draw();
+  EXPECT_NE(proxy, whole);
+  press('6', {.shift = true});
+  EXPECT_NE(draw(), proxy);
+  press('4', {.shift = true});
+  press(key::escape);
+  EXPECT_EQ(draw(), whole);
+}
+
 TEST_F(SessionTest, BadEditsLeaveAllAsItWas) {
   open({path("scene.toml")});
   const auto before = draw();
