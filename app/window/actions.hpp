@@ -17,8 +17,9 @@ namespace mote::window {
 enum class Action : std::uint8_t {
   ResetView, FrameAll, AxisX, AxisXBack, AxisY, AxisYBack, AxisZ, AxisZBack, ToggleProjection, ToggleTrackball,
   ToggleFullScreen, TogglePanels, ToggleHelp, ToggleLegend, Screenshot, CopyCamera, Reload, Save, Undo, Redo,
-  Play, NextFrame, PreviousFrame, FirstFrame, LastFrame, CenterHere, Release, Quit,
+  Play, NextFrame, PreviousFrame, FirstFrame, LastFrame, CenterHere, Release,
   StepProxy, StepDiscard, StepShade, StepDepth, StepQuadratic, StepPoints, // order of passes::Step
+  Quit,
 };
 
 struct Shortcut {
