@@ -115,7 +115,9 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.payloads, "tiles.payloads", places * payload, storage);
   reserve(b.colors, "tiles.colors", places * 8, storage);
   reserve(b.ids, "tiles.ids", targets.id || targets.casters || targets.shadows ? places * 4 : 0, storage);
-  tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 12ull, storage) || tiles_fresh_;
+  // Counts are left at zero by the casts before, unless they are counted elsewhere now: in a picture of another size.
+  tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 12ull, storage) || tiles_of_ != plan_.level1 || tiles_fresh_;
+  tiles_of_ = plan_.level1;
   reserve(b.far, "tiles.far", plan_.cells * 4ull, storage);
   reserve(b.active, "tiles.active", plan_.level1 * 4ull, storage);
   reserve(b.entries, "tiles.entries", (std::uint64_t{plan_.level1} * plan_.tile_room + 3ull * plan_.most_entries) * 4, storage);

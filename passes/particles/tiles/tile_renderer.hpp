@@ -76,6 +76,7 @@ private:
   std::uint32_t color_words_{2};
   bool first_{}; // nothing was cast before in the frame that is being recorded
   bool flags_fresh_{}, tiles_fresh_{true};
+  std::uint32_t tiles_of_{}; // how many tiles the buffer of tiles was laid out for: its parts lie elsewhere for another number
 };
 
 } // namespace mote::passes
