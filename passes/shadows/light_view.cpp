@@ -30,8 +30,9 @@ std::vector<Plane> planes_of(const Bounds& bounds, const View& camera) {
     const double length = glm::length(n);
     planes.push_back({world_from_view * (n / length), offset / length});
   };
-  // One pixel of slack: sample offsets and samples never leave it.
-  const double hx = (0.5 * camera.size.width + 1.0) / camera.focal, hy = (0.5 * camera.size.height + 1.0) / camera.focal;
+  // Of the whole picture, so that all its panels have one map. One pixel of slack: sample offsets and samples never leave it.
+  const Size2d whole = camera.whole();
+  const double hx = (0.5 * whole.width + 1.0) / camera.focal, hy = (0.5 * whole.height + 1.0) / camera.focal;
   const bool perspective = camera.projection == Projection::Perspective;
   for (const double side : {-1.0, 1.0}) {
     add(perspective ? glm::dvec3(side, 0, hx) : glm::dvec3(side, 0, 0), perspective ? 0.0 : hx);

@@ -134,6 +134,33 @@ TEST_F(Shipped, TheStackOfStates) {
               ::testing::ElementsAre(::testing::AnyOf(127, 128), ::testing::AnyOf(63, 64), ::testing::AnyOf(63, 64)));
 }
 
+// Sprites where they can be right and quads elsewhere: the same bits, for each of the three faults of sprites.
+TEST_F(Shipped, TheSpritesOfThePointExpansion) {
+  const std::string draw = "render '" + (scenes / "sprites.toml").string() + "' --size 1280x720 --edges sampled ";
+  for (const char* by : {"point", "vertex"}) {
+    const std::string name(by);
+    const Ran ran = mote(draw + "--expansion " + name + " -o " + name + ".png --aov id=" + name + "_id.npy --aov depth=" + name + "_depth.npy --aov normal=" + name + "_normal.npy");
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+  }
+  EXPECT_EQ(read_png((folder / "point.png").string()).rgba8, read_png((folder / "vertex.png").string()).rgba8);
+  for (const char* aov : {"_id.npy", "_depth.npy", "_normal.npy"}) EXPECT_EQ(read("point" + std::string(aov)), read("vertex" + std::string(aov))) << aov;
+}
+
+// Panels are the picture, bit for bit: also with a shadow map, which is fitted to the whole picture.
+TEST_F(Shipped, ThePosterInPanels) {
+  const std::string draw = "render '" + (scenes / "poster.toml").string() + "' --size 320x180 --samples 1 ";
+  for (const auto& [name, panel] : {std::pair("whole", ""), std::pair("panels", " --panel 75")}) {
+    const std::string n(name);
+    const Ran ran = mote(draw + "-o " + n + ".png --aov id=" + n + "_id.npy --aov depth=" + n + "_depth.npy" + panel);
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+  }
+  EXPECT_EQ(read_png((folder / "panels.png").string()).rgba8, read_png((folder / "whole.png").string()).rgba8);
+  for (const char* aov : {"_id.npy", "_depth.npy"}) EXPECT_EQ(read("panels" + std::string(aov)), read("whole" + std::string(aov))) << aov;
+  const Ran lit = mote(draw + "-o lit.png --graph default"); // the shadows are there at all
+  ASSERT_EQ(lit.exit, 0) << lit.err;
+  EXPECT_NE(read_png((folder / "lit.png").string()).rgba8, read_png((folder / "whole.png").string()).rgba8);
+}
+
 TEST_F(Shipped, VariablesOfSmooth) {
   const auto pixels = [&](const std::string& settings) {
     const Ran ran = mote("render spheres:1e3:fit --graph smooth -o s.png --size 96x54 " + settings);
