@@ -125,21 +125,53 @@ std::vector<std::string> pass_names(const rg::GraphDesc& graph) {
   return names;
 }
 
-rg::GraphDesc load_graph(const GraphRequest& request, Diagnostics& diagnostics) {
+namespace {
+
+// Nothing for a shipped name that does not exist. `files`: gets the paths that were looked at.
+std::optional<rg::GraphDesc> find_graph(const GraphRequest& request, Diagnostics& diagnostics, std::vector<std::string>& files) {
   rg::ParseOptions options;
   options.settings = request.settings;
-  options.read = [](const std::string& name, const std::string& from) -> std::optional<rg::GraphText> {
-    if (is_path(name)) return rg::read_beside(name, from);
+  options.read = [&files](const std::string& name, const std::string& from) -> std::optional<rg::GraphText> {
+    if (is_path(name)) {
+      const std::filesystem::path path(name);
+      files.push_back((path.is_absolute() ? path : std::filesystem::path(from).parent_path() / path).string());
+      return rg::read_beside(name, from);
+    }
     for (const ShippedGraph& graph : shipped_graph_texts())
       if (graph.name == name) return rg::GraphText{"mote:" + name + ".toml", std::string(graph.text)};
     return std::nullopt;
   };
   if (is_path(request.graph)) {
     const std::filesystem::path path(request.graph);
-    return rg::load_graph((path.is_absolute() ? path : request.folder / path).string(), diagnostics, options);
+    const std::string whole = (path.is_absolute() ? path : request.folder / path).string();
+    files.push_back(whole);
+    return rg::load_graph(whole, diagnostics, options);
   }
   for (const ShippedGraph& graph : shipped_graph_texts())
     if (graph.name == request.graph) return rg::parse_graph(graph.text, std::string(graph.name) + ".toml", diagnostics, options);
+  return std::nullopt;
+}
+
+} // namespace
+
+std::vector<std::string> graph_files(const GraphRequest& request) {
+  std::vector<std::string> files;
+  Diagnostics ignored; // whoever compiles the graph reports
+  const std::optional<rg::GraphDesc> graph = find_graph(request, ignored, files);
+  for (const rg::PassDesc& pass : graph ? graph->passes : std::vector<rg::PassDesc>()) {
+    const rg::Entry* shader = rg::find(pass.params, "shader");
+    const auto* word = shader ? std::get_if<std::string>(&shader->value.data) : nullptr;
+    if (!word || word->find_first_of("/.") == std::string::npos) continue; // a shipped pass
+    const std::filesystem::path path(*word), glsl = path.is_absolute() ? path : std::filesystem::path(shader->value.loc.file).parent_path() / path;
+    files.push_back(glsl.string());
+    files.push_back((glsl.parent_path() / "pass.toml").string());
+  }
+  return files;
+}
+
+rg::GraphDesc load_graph(const GraphRequest& request, Diagnostics& diagnostics) {
+  std::vector<std::string> files;
+  if (std::optional<rg::GraphDesc> graph = find_graph(request, diagnostics, files)) return std::move(*graph);
   const std::vector<std::string> names = shipped_graphs();
   const bool by_option = request.loc.file.empty() || request.loc.file.starts_with("--");
   fail(by_option ? Exit::Usage : Exit::BadInput, code::shipped_graph, request.loc, fmt::format("there is no shipped graph '{}'", request.graph),

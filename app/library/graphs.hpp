@@ -59,6 +59,9 @@ std::vector<std::string> pass_names(const rg::GraphDesc& graph);
 
 // Throws Failure (Usage, A006) for a shipped name that does not exist; other problems go to `diagnostics`.
 rg::GraphDesc load_graph(const GraphRequest& request, Diagnostics& diagnostics);
+// The files that the graph is made of: its own, what it includes, shaders of its passes and their pass.toml; also those that are not there or
+// broken, so that a change of them is a reason to read it again. Empty for shipped graphs.
+std::vector<std::string> graph_files(const GraphRequest& request);
 // Nothing when `diagnostics` then has errors.
 std::optional<ReadyGraph> ready_graph(const GraphRequest& request, Diagnostics& diagnostics);
 

@@ -27,6 +27,13 @@ constexpr std::array table{
     Shortcut{Action::ToggleProjection, '5', plain, {}},
     Shortcut{Action::ToggleTrackball, 't', plain, "turntable (up stays up) or trackball"},
     Shortcut{Action::CenterHere, 'o', plain, "orbit about the particle under the mouse"},
+    Shortcut{Action::GizmoMove, 'w', plain, "handles to move, turn or scale data sets and lights"},
+    Shortcut{Action::GizmoMove, 'g', plain, {}},
+    Shortcut{Action::GizmoTurn, 'e', plain, {}},
+    Shortcut{Action::GizmoScale, 'r', shift, {}},
+    Shortcut{Action::GizmoNext, 'n', plain, "the next thing for the handles"},
+    Shortcut{Action::RollLeft, '[', plain, "roll the camera by 15 degrees"},
+    Shortcut{Action::RollRight, ']', plain, {}},
     Shortcut{Action::Play, key::space, plain, "play or pause"},
     Shortcut{Action::PreviousFrame, key::left, plain, "one frame back, one frame on"},
     Shortcut{Action::NextFrame, key::right, plain, {}},
@@ -74,7 +81,7 @@ std::optional<Action> action_of(Key pressed, const Modifiers& modifiers) {
 }
 
 Gesture gesture_of(Button button, const Modifiers& modifiers) {
-  if (button == Button::Left) return modifiers.shift ? Gesture::Pan : Gesture::Orbit;
+  if (button == Button::Left) return modifiers.shift ? Gesture::Pan : modifiers.control ? Gesture::Roll : Gesture::Orbit;
   if (button == Button::Right) return modifiers.shift || modifiers.control ? Gesture::Zoom : Gesture::Pan;
   return modifiers.control ? Gesture::Zoom : Gesture::Pan;
 }
@@ -83,14 +90,16 @@ std::vector<std::array<std::string, 2>> help_rows() {
   std::vector<std::array<std::string, 2>> rows{
       {"Left drag", "turn"},
       {"Middle, right or Shift left drag", "move"},
+      {"Ctrl left drag", "roll about the middle"},
       {"Wheel, Shift right drag", "zoom, to where the mouse is"},
       {"Ctrl click", "pick a particle; again: distance, then angle"},
+      {"Drag a handle", "move, turn or scale along an axis; its middle: along two, with Shift scale evenly"},
       {"Double click", "orbit about what is there"},
       {"Drop files", "open them"},
   };
   for (const Shortcut& s : table) {
     if (!s.text.empty()) rows.push_back({combination(s), std::string(s.text)});
-    else if (s.modifiers.none() || s.action == Action::Redo || s.action == Action::Reload) rows.back()[0] += ", " + combination(s);
+    else if (s.modifiers.none() || s.action == Action::Redo || s.action == Action::Reload || s.action == Action::GizmoScale) rows.back()[0] += ", " + combination(s);
   }
   return rows;
 }

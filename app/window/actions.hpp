@@ -17,6 +17,7 @@ namespace mote::window {
 enum class Action : std::uint8_t {
   ResetView, FrameAll, AxisX, AxisXBack, AxisY, AxisYBack, AxisZ, AxisZBack, ToggleProjection, ToggleTrackball,
   ToggleFullScreen, TogglePanels, ToggleHelp, ToggleLegend, Screenshot, CopyCamera, Reload, Save, Undo, Redo,
+  GizmoMove, GizmoTurn, GizmoScale, GizmoNext, RollLeft, RollRight,
   Play, NextFrame, PreviousFrame, FirstFrame, LastFrame, CenterHere, Release,
   StepProxy, StepDiscard, StepShade, StepDepth, StepQuadratic, StepPoints, // order of passes::Step
   Quit,
@@ -32,7 +33,7 @@ std::span<const Shortcut> shortcuts();
 std::optional<Action> action_of(Key key, const Modifiers& modifiers);
 
 // What a drag with this button does.
-enum class Gesture : std::uint8_t { Orbit, Pan, Zoom };
+enum class Gesture : std::uint8_t { Orbit, Pan, Zoom, Roll };
 Gesture gesture_of(Button button, const Modifiers& modifiers);
 
 // Rows of two columns: keys or mouse, and what they do.

@@ -25,12 +25,17 @@ double half_tangent(const Camera& c) { return std::tan(glm::radians(c.fov_y) * 0
 } // namespace
 
 CameraControl::CameraControl(const Camera& camera, const Bounds& bounds)
-    : camera_(camera), start_(camera), bounds_(bounds), world_up_(glm::normalize(camera.up)) {}
+    : camera_(camera), start_(camera), bounds_(bounds), scene_up_(glm::normalize(camera.up)), world_up_(scene_up_) {}
 
 void CameraControl::set_camera(const Camera& camera) {
   if (!check(camera).empty()) return;
   camera_ = start_ = camera;
-  world_up_ = glm::normalize(camera.up);
+  scene_up_ = world_up_ = glm::normalize(camera.up);
+}
+
+void CameraControl::reset() {
+  camera_ = start_;
+  world_up_ = scene_up_;
 }
 
 glm::dvec3 CameraControl::forward() const { return glm::normalize(camera_.target - camera_.eye); }
@@ -92,12 +97,25 @@ void CameraControl::zoom(double factor, double x, double y, Size2d size) {
   try_camera(c);
 }
 
+void CameraControl::roll(const glm::dvec2& from, const glm::dvec2& to, Size2d size) {
+  const glm::dvec2 middle(0.5 * size.width, 0.5 * size.height), a = from - middle, b = to - middle;
+  const double turn = std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b)); // clockwise: y is down
+  if (std::isfinite(turn)) roll(turn);
+}
+
+void CameraControl::roll(double radians) {
+  Camera c = camera_;
+  c.up = glm::normalize(turned(true_up(), -radians, forward())); // things turn clockwise, so the camera the other way
+  try_camera(c);
+  world_up_ = glm::normalize(camera_.up);
+}
+
 void CameraControl::look_along(int axis, bool from_back) {
   glm::dvec3 arm(0);
   arm[axis] = from_back ? -1.0 : 1.0;
   Camera c = camera_;
   c.eye = c.target + arm * distance();
-  c.up = world_up_;
+  c.up = world_up_ = scene_up_;
   if (std::abs(glm::dot(arm, world_up_)) > 0.99) c.up = std::abs(world_up_.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -arm[axis]);
   try_camera(c);
 }

@@ -27,10 +27,14 @@ public:
   void pan(double dx, double dy, Size2d size);
   // Everything `factor` times as far (orthographic: as large a part is seen); what lies under pixel (x, y) at the target's depth stays there.
   void zoom(double factor, double x, double y, Size2d size);
+  // About the view: the picture turns with the mouse about its middle, or clockwise by an angle. A turntable then turns about what is up
+  // in the picture; axis views and reset() bring the world's up back.
+  void roll(const glm::dvec2& from, const glm::dvec2& to, Size2d size);
+  void roll(double radians);
   // Along a world axis: from +axis, or from the other side. The target and the distance stay.
   void look_along(int axis, bool from_back);
   void frame_all(Size2d size);
-  void reset() { camera_ = start_; }
+  void reset();
   void toggle_projection(); // things at the target's depth keep their size
   // The target there, the eye stays; what was under the mouse moves to the middle.
   void center_at(const glm::dvec3& world);
@@ -48,7 +52,7 @@ private:
 
   Camera camera_, start_;
   Bounds bounds_;
-  glm::dvec3 world_up_;
+  glm::dvec3 scene_up_, world_up_; // the scene's, and what a turntable turns about
   bool trackball_{};
 };
 

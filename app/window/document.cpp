@@ -97,14 +97,26 @@ void Document::push(std::string text, std::string what, bool merge) {
 }
 
 // A scene without lights has one that stands in no file: it is written down before it is changed.
-std::string Document::with_light(const std::string& path) const {
+std::string Document::with_light(const std::string& text, const std::string& path) {
   const bool of_light = path.starts_with("light.") || path.starts_with("light[");
-  if (!of_light || config::written_value(text(), "light", code::not_patchable)) return text();
-  return text() + (text().ends_with('\n') ? "" : "\n") + std::string(default_light);
+  if (!of_light || config::written_value(text, "light", code::not_patchable)) return text;
+  return text + (text.ends_with('\n') ? "" : "\n") + std::string(default_light);
 }
 
-void Document::set(const std::string& path, const std::string& value, bool merge) {
-  push(config::patched(with_light(path), path, value, code::not_patchable), path, merge);
+std::string Document::with(const std::string& text, const std::string& path, const std::string& value) {
+  return config::patched(with_light(text, path), path, value, code::not_patchable);
+}
+
+std::string Document::with_appended(const std::string& text, const std::string& path, const std::string& values) {
+  return config::appended(text, path, values, code::not_patchable);
+}
+
+void Document::set(const std::string& path, const std::string& value, bool merge) { push(with(text(), path, value), path, merge); }
+
+void Document::back_to(const Mark& mark) {
+  place_ = std::min(mark.place, texts_.size() - 1);
+  texts_.resize(place_ + 1);
+  texts_[place_] = {mark.text, mark.what};
 }
 
 void Document::set_camera(const Camera& c) {

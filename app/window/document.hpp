@@ -31,6 +31,18 @@ public:
   // Throws Failure A054; nothing is changed then. `merge`: goes on changing what the last change changed (a slider that is
   // dragged), so that one undo takes all of it back.
   void set(const std::string& path, const std::string& value, bool merge = false);
+  // The text that set() would make of `text`; and one with `values` behind what the list at `path` holds. Nothing is changed. Throw A054.
+  [[nodiscard]] static std::string with(const std::string& text, const std::string& path, const std::string& value);
+  [[nodiscard]] static std::string with_appended(const std::string& text, const std::string& path, const std::string& values);
+  // Another text, as `what` changed it; `merge`: as set().
+  void change(std::string text, const std::string& what, bool merge) { push(std::move(text), what, merge); }
+  // Where undo stands, and back to it: for a change that turns out to be none that can be drawn.
+  struct Mark {
+    std::size_t place{};
+    std::string text{}, what{};
+  };
+  [[nodiscard]] Mark mark() const { return {place_, texts_[place_].text, texts_[place_].what}; }
+  void back_to(const Mark& mark);
   // The camera into its table; like set().
   void set_camera(const Camera& camera);
   bool undo(); // false: there is nothing to take back
@@ -47,7 +59,7 @@ private:
     std::string text{}, what{}; // and what led to it
   };
   void push(std::string text, std::string what, bool merge);
-  [[nodiscard]] std::string with_light(const std::string& path) const;
+  [[nodiscard]] static std::string with_light(const std::string& text, const std::string& path);
 
   std::vector<State> texts_{1};
   std::size_t place_{};

@@ -81,6 +81,11 @@ Event wheel_event(double steps, double x, double y, Modifiers modifiers) {
   return e;
 }
 
+glm::dvec2 to_pixels(double x, double y, Size2d units, Size2d pixels) {
+  if (units.width == 0 || units.height == 0) return {x, y};
+  return {x * pixels.width / units.width, y * pixels.height / units.height};
+}
+
 Event resize_event(Size2d size, double scale) {
   Event e{.kind = Event::Kind::Resize};
   e.size = size;

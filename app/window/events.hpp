@@ -53,6 +53,8 @@ Event key_event(Key key, Modifiers modifiers = {}, bool pressed = true);
 Event button_event(Button button, double x, double y, bool pressed, Modifiers modifiers = {});
 Event move_event(double x, double y, Modifiers modifiers = {});
 Event wheel_event(double steps, double x, double y, Modifiers modifiers = {});
+// A place in the window system's units as one of the picture: a window of `units` shows a picture of `pixels`.
+glm::dvec2 to_pixels(double x, double y, Size2d units, Size2d pixels);
 Event resize_event(Size2d size, double scale = 1.0);
 
 } // namespace mote::window

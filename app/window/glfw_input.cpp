@@ -4,6 +4,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace mote::window {
@@ -61,20 +62,17 @@ GlfwInput::GlfwInput(GLFWwindow* window) : window_(window) {
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
-    double x = 0, y = 0;
-    glfwGetCursorPos(w, &x, &y);
-    const glm::dvec2 at = self(w).to_pixels(x, y);
+    const glm::dvec2 at = self(w).place();
     const Button which = button == GLFW_MOUSE_BUTTON_LEFT ? Button::Left : button == GLFW_MOUSE_BUTTON_RIGHT ? Button::Right : Button::Middle;
     self(w).events_.push_back(button_event(which, at.x, at.y, action == GLFW_PRESS, modifiers_of(mods)));
   });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    self(w).cursor_ = glm::dvec2(x, y);
     const glm::dvec2 at = self(w).to_pixels(x, y);
     self(w).events_.push_back(move_event(at.x, at.y, modifiers_now(w)));
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double steps) {
-    double x = 0, y = 0;
-    glfwGetCursorPos(w, &x, &y);
-    const glm::dvec2 at = self(w).to_pixels(x, y);
+    const glm::dvec2 at = self(w).place();
     self(w).events_.push_back(wheel_event(steps, at.x, at.y, modifiers_now(w)));
   });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
@@ -89,8 +87,14 @@ GlfwInput::GlfwInput(GLFWwindow* window) : window_(window) {
 glm::dvec2 GlfwInput::to_pixels(double x, double y) const {
   int width = 0, height = 0;
   glfwGetWindowSize(window_, &width, &height);
-  if (width < 1 || height < 1) return {x, y};
-  return {x * size_.width / width, y * size_.height / height};
+  return window::to_pixels(x, y, {static_cast<std::uint32_t>(std::max(width, 0)), static_cast<std::uint32_t>(std::max(height, 0))}, size_);
+}
+
+// Where the mouse was when the event came, which is not where it is by now: pictures take time.
+glm::dvec2 GlfwInput::place() const {
+  double x = 0, y = 0;
+  if (!cursor_) glfwGetCursorPos(window_, &x, &y);
+  return cursor_ ? to_pixels(cursor_->x, cursor_->y) : to_pixels(x, y);
 }
 
 void GlfwInput::check_size() {

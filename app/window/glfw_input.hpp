@@ -4,6 +4,7 @@
 
 #include "app/window/events.hpp"
 
+#include <optional>
 #include <vector>
 
 struct GLFWwindow;
@@ -24,11 +25,13 @@ public:
 
 private:
   [[nodiscard]] glm::dvec2 to_pixels(double x, double y) const;
+  [[nodiscard]] glm::dvec2 place() const;
 
   GLFWwindow* window_;
   std::vector<Event> events_{};
   Size2d size_{};
   double scale_{};
+  std::optional<glm::dvec2> cursor_{}; // the window system's units; of the last move
   bool minimized_{};
   Modifiers modifiers_{};
 };

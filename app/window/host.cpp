@@ -141,13 +141,21 @@ gpu::Texture Host::Impl::acquire() {
 }
 
 void Host::Impl::frame(Session& session) {
-  session.render(clock.now());
+  const double began = clock.now();
+  session.render(began);
+  if (!session.shows_new()) return first_input.reset(); // a piece of a picture: inputs before it have changed nothing
+  const double drawn = clock.now();
   const gpu::Texture target = acquire();
   if (!target) return;
+  const double acquired = clock.now();
   session.compose(target);
+  const double composed = clock.now();
   if (!surface.present()) configured = {};
   device->check();
   ++report.frames;
+  report.picture_ms.push_back((drawn - began) * 1000.0);
+  report.compose_ms.push_back((composed - acquired) * 1000.0);
+  report.present_ms.push_back((clock.now() - composed + acquired - drawn) * 1000.0);
   if (session.panels_shown()) report.panels_ms.push_back(session.panels_ms());
   if (first_input) report.input_ms.push_back((clock.now() - *first_input) * 1000.0);
   first_input.reset();
@@ -190,7 +198,8 @@ void Host::Impl::window_shot(Session& session, const std::string& path) {
   if (!session.visible()) return session.message("a window without an area has no screenshot");
   const gpu::Texture target = device->device().create_texture({.label = "screenshot", .size = {size.width, size.height, 1}, .format = gpu::TextureFormat::RGBA8Unorm,
                                                                .usage = gpu::TextureUsage::RenderAttachment | gpu::TextureUsage::CopySrc});
-  session.render(clock.now());
+  do session.render(clock.now()); // all pieces of it
+  while (!session.shows_new() && session.wants_frame(clock.now()));
   session.compose(target);
   const std::vector<std::byte> bytes = device->device().read_texture(target);
   device->check();

@@ -22,7 +22,8 @@ struct HostOptions {
 struct HostReport {
   std::uint64_t frames{};
   std::vector<double> input_ms{};  // one for each frame that answers inputs: from the first of them to its picture
-  std::vector<double> panels_ms{}; // of each frame
+  // Of each frame, what a wait is made of: the scene's picture, everything put together (panels among it), the swapchain's part.
+  std::vector<double> picture_ms{}, compose_ms{}, panels_ms{}, present_ms{};
 };
 
 // Connects to the display. Throws Failure A010 (no display; says `mote render`), A050 (the display cannot show Vulkan pictures).

@@ -14,6 +14,8 @@ constexpr double letters = 14.0, line = 20.0, margin = 10.0, gap = 24.0; // pixe
 constexpr double darkness = 0.78;
 const glm::dvec3 ink(0.9), accent(0.45, 0.7, 1.0);
 
+} // namespace
+
 std::vector<std::uint8_t> displayed(const overlay::Layer& layer) {
   std::vector<std::uint8_t> out(layer.pixels.size() * 4);
   for (std::size_t i = 0; i < layer.pixels.size(); ++i) {
@@ -23,8 +25,6 @@ std::vector<std::uint8_t> displayed(const overlay::Layer& layer) {
   }
   return out;
 }
-
-} // namespace
 
 FlatPicture text_box(const std::vector<std::array<std::string, 2>>& rows, HudPlace place, Size2d window, double scale) {
   FlatPicture out;

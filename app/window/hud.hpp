@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/window/presenter.hpp"
+#include "core/overlay/canvas.hpp"
 
 #include <array>
 #include <string>
@@ -12,6 +13,9 @@
 namespace mote::window {
 
 inline constexpr double panel_width = 330.0, panel_part = 0.6; // of panels: pixels of a usual display, at most this part of the window
+
+// A layer as straight RGBA8, encoded for the display without a view transform.
+std::vector<std::uint8_t> displayed(const overlay::Layer& layer);
 
 enum class HudPlace : std::uint8_t { Center, TopLeft, BottomLeft };
 

@@ -9,7 +9,7 @@
 namespace mote::window {
 
 struct PaceOptions {
-  double goal_ms{32.0};      // of a frame while something moves; two of them are the longest wait of an input
+  double goal_ms{24.0};      // of a frame while something moves; two of them are the longest wait of an input
   double settle_s{0.12};     // from the last change to the refined picture
   double least_scale{0.125}; // of the sides of a picture
 };
@@ -29,6 +29,7 @@ public:
   // Is the next frame a draft, and of which size by the window's? Each side, (0, 1].
   [[nodiscard]] bool draft(double now) const { return !settled(now) && (differs_ || scale_ < 1.0); }
   [[nodiscard]] double scale() const { return scale_; }
+  [[nodiscard]] double goal_ms() const { return options_.goal_ms; }
   [[nodiscard]] bool wants_frame(double now) const { return dirty_ || (!refined_ && settled(now)); }
   // When a frame will be wanted though nothing happens; nothing: not before the next change.
   [[nodiscard]] std::optional<double> due() const;
@@ -38,9 +39,10 @@ public:
   // A frame at full quality will take so long (the first one is known only after it was drawn).
   [[nodiscard]] double expected_full_ms() const { return full_ms_; }
 
-private:
+  // Nothing moves any more.
   [[nodiscard]] bool settled(double now) const { return !held_ && now >= last_change_ + options_.settle_s; }
 
+private:
   PaceOptions options_;
   bool dirty_{true}, refined_{}, held_{}, differs_{};
   double last_change_{-1e9}, scale_{1.0}, full_ms_{};

@@ -11,11 +11,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 namespace mote::window {
 namespace {
 
-constexpr double zoom_a_step = 0.87, zoom_a_pixel = 1.006;
+constexpr double zoom_a_step = 0.87, zoom_a_pixel = 1.006, roll_a_step = 15.0; // degrees
 constexpr double message_s = 4.0, double_click_s = 0.35, click_pixels = 4.0;
 
 using Clock = std::chrono::steady_clock;
@@ -105,6 +106,7 @@ void Session::on_button(const Event& event, double now) {
   mouse_ = {event.x, event.y};
   if (event.pressed) {
     if (held_) return; // one drag at a time
+    begin_gizmo_drag(event);
     held_ = event.button;
     held_modifiers_ = event.modifiers;
     pressed_at_ = mouse_;
@@ -112,7 +114,11 @@ void Session::on_button(const Event& event, double now) {
   }
   if (held_ != event.button) return;
   held_.reset();
-  if (glm::length(mouse_ - pressed_at_) < click_pixels * scale_ && event.button == Button::Left) {
+  const bool took_gizmo = gizmo_.drag.has_value();
+  end_gizmo_drag();
+  if (took_gizmo) {
+    last_click_ = -1e9;
+  } else if (glm::length(mouse_ - pressed_at_) < click_pixels * scale_ && event.button == Button::Left) {
     if (held_modifiers_.control) {
       picked_at(mouse_.x, mouse_.y);
     } else if (now - last_click_ < double_click_s) {
@@ -127,10 +133,13 @@ void Session::on_button(const Event& event, double now) {
 void Session::on_move(const Event& event, double now) {
   const glm::dvec2 to{event.x, event.y}, by = to - mouse_;
   mouse_ = to;
+  hover_gizmo(to.x, to.y);
   if (!held_ || !visible() || by == glm::dvec2(0)) return;
+  if (gizmo_.drag) return drag_gizmo(to, event.modifiers);
   switch (gesture_of(*held_, held_modifiers_)) {
   case Gesture::Orbit: control_.orbit(by.x, by.y, size_); break;
   case Gesture::Pan: control_.pan(by.x, by.y, size_); break;
+  case Gesture::Roll: control_.roll(to - by, to, size_); break;
   case Gesture::Zoom: control_.zoom(std::pow(zoom_a_pixel, by.y), pressed_at_.x, pressed_at_.y, size_); break;
   }
   moved(now, true);
@@ -157,7 +166,9 @@ void Session::act(Action action) {
     hud_stale_ = stale_ = true;
     return;
   case Action::Release:
-    if (!help_ && picked_.empty()) wishes_.leave_full_screen = true;
+    if (!help_ && picked_.empty() && !gizmo_.mode) wishes_.leave_full_screen = true;
+    if (const bool dragged = gizmo_.drag && gizmo_.drag->begun; dragged) undo(); // that much of the drag
+    set_gizmo({});
     help_ = false;
     picked_.clear();
     message_.clear();
@@ -178,6 +189,13 @@ void Session::act(Action action) {
   case Action::Save: save(); return;
   case Action::Undo: return undo();
   case Action::Redo: return redo();
+  case Action::GizmoMove: return set_gizmo(gizmo_.mode == GizmoMode::Move ? std::optional<GizmoMode>() : GizmoMode::Move);
+  case Action::GizmoTurn: return set_gizmo(gizmo_.mode == GizmoMode::Turn ? std::optional<GizmoMode>() : GizmoMode::Turn);
+  case Action::GizmoScale: return set_gizmo(gizmo_.mode == GizmoMode::Scale ? std::optional<GizmoMode>() : GizmoMode::Scale);
+  case Action::GizmoNext: return set_gizmo_target((gizmo_.target + 1) % std::max<std::size_t>(1, gizmo_targets().size()));
+  case Action::RollLeft: case Action::RollRight:
+    control_.roll(glm::radians(action == Action::RollLeft ? -roll_a_step : roll_a_step));
+    return moved(now, false);
   case Action::Play: return set_playing(!playing_);
   case Action::NextFrame: return set_frame(frame() + 1 < frame_count() ? frame() + 1 : loop ? 0 : frame());
   case Action::PreviousFrame: return set_frame(frame() > 0 ? frame() - 1 : loop ? frame_count() - 1 : 0);
@@ -226,14 +244,20 @@ void Session::render(double now) {
   if (playing_ && now >= next_frame_at_) play(now);
   if (!visible() || !pace_.wants_frame(now)) return;
   const Clock::time_point start = Clock::now();
-  draft_shown_ = pace_.draft(now);
+  draft_shown_ = pace_.draft(now) || !picture_; // something soon at the start, so that all that drafts need is there when a hand comes
   Size2d size = size_;
   if (draft_shown_) {
     const auto part = [this](std::uint32_t length) { return std::max(1u, static_cast<std::uint32_t>(std::lround(length * pace_.scale()))); };
     size = {part(size.width), part(size.height)};
+    picture_ = painter_.draft(view(size));
+    refined_ms_ = 0.0;
+  } else {
+    const bool whole = painter_.refine(view(size_), pace_.settled(now) ? pace_.goal_ms() : std::numeric_limits<double>::infinity()); // what moves is shown whole
+    refined_ms_ += ms_since(start);
+    if (!whole) return; // the rest comes with the next calls, if nothing happens
+    picture_ = painter_.refined();
   }
-  picture_ = painter_.draw(view(size), draft_shown_);
-  render_ms_ = ms_since(start);
+  render_ms_ = draft_shown_ ? ms_since(start) : std::exchange(refined_ms_, 0.0);
   rendered_ = true;
   if (!draft_shown_ || !job_->scene.annotations.cells.empty()) update_annotations();
 }
@@ -242,7 +266,7 @@ void Session::render(double now) {
 void Session::update_annotations() {
   FlatPicture flat;
   if (legend_ && !job_->scene.annotations.empty()) {
-    const overlay::Layer layer = overlay::draw_annotations(job_->scene, view(size_), draft_shown_ ? std::vector<float>{} : painter_.read_depth());
+    const overlay::Layer layer = overlay::draw_annotations(job_->scene, view(size_), draft_shown_ ? std::vector<float>{} : painter_.depth());
     flat.size = size_;
     flat.rgba.resize(std::size_t{size_.width} * size_.height * 4);
     overlay::lay_over_display(layer, painter_.display(), std::span<std::uint8_t>(flat.rgba));
@@ -280,6 +304,7 @@ void Session::update_hud(double) {
 void Session::compose(const gpu::Texture& target) {
   const Clock::time_point start = Clock::now();
   if (hud_stale_) update_hud(now_);
+  update_gizmo();
   hud_stale_ = stale_ = false;
   std::function<void(gpu::RenderPass&)> further;
   if (panels_shown()) {

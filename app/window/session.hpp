@@ -13,13 +13,16 @@
 #include "app/window/actions.hpp"
 #include "app/window/camera_control.hpp"
 #include "app/window/document.hpp"
+#include "app/window/handles.hpp"
 #include "app/window/pace.hpp"
 #include "app/window/painter.hpp"
 #include "app/window/panels.hpp"
 #include "app/window/presenter.hpp"
+#include "core/toml/node.hpp"
 
 #include <array>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +44,16 @@ struct Wishes {
   std::optional<std::vector<std::string>> watch{}; // files and folders to be told of
 };
 
+// What the gizmo can take.
+struct GizmoTarget {
+  enum class Kind : std::uint8_t { Data, Light };
+  Kind kind{};
+  std::size_t index{};
+  std::string name{};
+  bool moves{}, turns{}, scales{};
+  [[nodiscard]] bool can(GizmoMode mode) const { return mode == GizmoMode::Move ? moves : mode == GizmoMode::Turn ? turns : scales; }
+};
+
 class Session {
 public:
   // `request` is what `job` was loaded from: the session loads it again when files change.
@@ -54,8 +67,10 @@ public:
   // When the next frame will be wanted though nothing happens.
   [[nodiscard]] std::optional<double> due() const;
   [[nodiscard]] bool refined() const { return pace_.refined() || !visible(); } // nothing better will come
-  // Draws the scene, if it or the way it is seen has changed.
+  // Draws the scene, if it or the way it is seen has changed; of a picture as it should be, a piece (shows_new() tells when it is whole).
   void render(double now);
+  // Is there something that compose() would show and the window does not?
+  [[nodiscard]] bool shows_new() const { return stale_ || hud_stale_ || rendered_; }
   // The last picture with all that goes over it, into a texture of the window's size; waits.
   void compose(const gpu::Texture& target);
   [[nodiscard]] bool visible() const { return size_.width > 0 && size_.height > 0; }
@@ -76,6 +91,14 @@ public:
   bool loop{true};
   void set_camera(const Camera& camera); // no undo: cameras come and go
   void act(Action action);               // what a key would do
+
+  // ---- moving things with the mouse ----
+  [[nodiscard]] std::vector<GizmoTarget> gizmo_targets() const; // data sets, then lights that have a place or a direction
+  void set_gizmo(std::optional<GizmoMode> mode);                // nothing: no handles
+  void set_gizmo_target(std::size_t target);
+  [[nodiscard]] std::optional<GizmoMode> gizmo_mode() const { return gizmo_.mode; }
+  [[nodiscard]] std::size_t gizmo_target() const { return gizmo_.target; }
+  [[nodiscard]] std::vector<GizmoStroke> gizmo_strokes_now() const; // where its handles are, pixels
 
   // ---- what was picked ----
   struct Picked {
@@ -108,14 +131,38 @@ private:
   void on_button(const Event& event, double now);
   void on_move(const Event& event, double now);
   void moved(double now, bool held); // the camera
+  struct GizmoDrag {
+    GizmoTarget target{};
+    GizmoPart part{};
+    View view{};               // as it was when the drag began, as is all here
+    glm::dvec3 pivot{0};
+    glm::dvec2 from{0};
+    Light light{};
+    std::optional<std::string> base{};        // data sets: the scene's text
+    std::optional<config::Node> last{};       // their last step, if the drag is to go on with it
+    std::size_t last_index{};
+    bool begun{};              // something was changed
+  };
+  [[nodiscard]] glm::dvec3 gizmo_pivot(const GizmoTarget& target) const;
+  bool begin_gizmo_drag(const Event& event);
+  void end_gizmo_drag();
+  void hover_gizmo(double x, double y);
+  void drag_gizmo(const glm::dvec2& to, const Modifiers& modifiers);
+  bool move_light(const GizmoDrag& drag, const GizmoChange& change);
+  bool move_data(GizmoDrag& drag, const GizmoChange& change);
+  void update_gizmo();
   void open(const std::vector<std::string>& files);
   void reload();
   bool take_text(const std::string& changed);  // the document's text as the scene; `changed`: the path that is another
+  bool take_lights(Diagnostics& diagnostics);
+  bool take_transforms(Diagnostics& diagnostics);
+  // The text that `make` gives becomes the scene, or all stays as it was; `what`, `merge`: as Document::set.
+  bool change_text(const std::string& what, const std::function<std::string()>& make, bool merge);
   bool take_job(app::Job next, Diagnostics& diagnostics);
   [[nodiscard]] app::Job described(Diagnostics& diagnostics) const;
   [[nodiscard]] std::vector<std::string> type_settings() const; // types that the command line names
   void tell(const Diagnostics& diagnostics);
-  void watch_files();
+  void watch_files(const app::GraphRequest* graph = nullptr);
   void picked_at(double x, double y);
   void show_step(passes::Step step); // of the first pass that has steps
   [[nodiscard]] std::optional<Picked> describe(std::uint32_t id) const;
@@ -142,7 +189,7 @@ private:
   gpu::Texture picture_{};
   bool stale_{true};      // the window shows something older than the state
   bool draft_shown_{};
-  double render_ms_{};
+  double render_ms_{}, refined_ms_{}; // of the last picture; of the pieces so far
   bool rendered_{};       // since the last compose
   std::optional<Button> held_{};
   Modifiers held_modifiers_{};
@@ -152,6 +199,13 @@ private:
   double next_frame_at_{}, quit_asked_{-1e9}, panels_ms_{};
   std::uint64_t frames_known_{}; // 0: not asked yet
   std::vector<Picked> picked_{};
+  struct {
+    std::optional<GizmoMode> mode{};
+    std::size_t target{};
+    std::optional<GizmoPart> lit{};
+    std::optional<GizmoDrag> drag{};
+    bool shown{};
+  } gizmo_{};
   std::unique_ptr<Panels> panels_{};
   Diagnostics problems_{};
   std::vector<std::string> said_{};

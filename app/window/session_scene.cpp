@@ -5,6 +5,7 @@
 #include "app/library/user_types.hpp"
 #include "app/window/codes.hpp"
 #include "app/window/session.hpp"
+#include "core/scene/realize.hpp"
 #include "core/scene/scene_file.hpp"
 #include "render_graph/value.hpp"
 
@@ -25,6 +26,9 @@ bool only_light(const std::string& path) {
   const std::string_view word = app::first_word(path);
   return word == "light" || word == "ambient" || word == "background";
 }
+
+// Transforms change no particle either.
+bool only_transform(const std::string& path) { return path.starts_with("data[") && path.find("].transform") != std::string::npos; }
 
 std::string cell_text(const data::Column& column, std::uint64_t row) {
   if (const auto* text = std::get_if<data::TextColumn>(&column.values)) return text->at(row);
@@ -56,6 +60,7 @@ app::Job Session::described(Diagnostics& diagnostics) const {
 bool Session::take_job(app::Job next, Diagnostics& diagnostics) {
   if (diagnostics.has_errors()) return false;
   diagnostics.append(app::as_warnings(next.left_out));
+  watch_files(&next.graph);
   const bool camera_changed = !same_camera(next.scene.camera, loaded_camera_);
   const Camera camera = next.scene.camera;
   if (!camera_changed) next.scene.camera = control_.camera(); // the user's view stays
@@ -72,22 +77,41 @@ bool Session::take_job(app::Job next, Diagnostics& diagnostics) {
   return true;
 }
 
+bool Session::take_lights(Diagnostics& diagnostics) {
+  SceneDesc desc = parse_scene(document_.text(), document_.name(), document_.folder(), type_settings(), diagnostics);
+  if (diagnostics.has_errors()) return false;
+  job_->desc = std::move(desc);
+  job_->scene.lights = job_->desc.lights;
+  job_->scene.ambient = job_->desc.ambient;
+  job_->scene.background = job_->desc.background;
+  pace_.changed(now_, held_.has_value());
+  return true;
+}
+
+// Particles stay as they are; only their instances stand elsewhere.
+bool Session::take_transforms(Diagnostics& diagnostics) {
+  SceneDesc desc = parse_scene(document_.text(), document_.name(), document_.folder(), type_settings(), diagnostics);
+  if (diagnostics.has_errors() || desc.data.size() != job_->desc.data.size()) return false;
+  auto next = std::make_shared<app::Job>(*job_);
+  desc.frame = next->desc.frame;
+  next->desc = std::move(desc);
+  if (!place_again(next->scene, next->desc, *next->source, next->frame, diagnostics)) return false;
+  loaded_camera_ = complete_camera(next->desc.camera, next->scene.bounds, next->size); // that the file would show
+  job_ = std::move(next);
+  painter_.set_scene(job_->scene);
+  control_.set_bounds(job_->scene.bounds);
+  moved(now_, held_.has_value());
+  return true;
+}
+
 // False: the scene stays as it was, and the reasons have been told.
 bool Session::take_text(const std::string& changed) {
   Diagnostics diagnostics;
   bool taken = false;
   try {
-    if (only_light(changed)) {
-      SceneDesc desc = parse_scene(document_.text(), document_.name(), document_.folder(), type_settings(), diagnostics);
-      taken = !diagnostics.has_errors();
-      if (taken) {
-        job_->desc = std::move(desc);
-        job_->scene.lights = job_->desc.lights;
-        job_->scene.ambient = job_->desc.ambient;
-        job_->scene.background = job_->desc.background;
-        pace_.changed(now_, held_.has_value());
-      }
-    } else {
+    if (only_light(changed)) taken = take_lights(diagnostics);
+    else if (only_transform(changed)) taken = take_transforms(diagnostics);
+    else {
       app::Job next = described(diagnostics);
       taken = take_job(std::move(next), diagnostics);
     }
@@ -101,22 +125,25 @@ bool Session::take_text(const std::string& changed) {
 
 bool Session::set(const std::string& path, const std::string& value, bool merge) {
   const std::vector<std::string> setting{path + "=" + value};
-  if (!app::split_settings(setting).graph.empty()) { // of a pass
-    app::JobRequest before = request_;
-    std::erase_if(request_.settings, [&](const std::string& s) { return s.starts_with(path + "="); });
-    request_.settings.push_back(setting[0]);
-    if (take_text("graph")) return true;
-    request_ = std::move(before);
-    return false;
-  }
+  if (app::split_settings(setting).graph.empty()) return change_text(path, [&] { return Document::with(document_.text(), path, value); }, merge);
+  app::JobRequest before = request_; // it is of a pass
+  std::erase_if(request_.settings, [&](const std::string& s) { return s.starts_with(path + "="); });
+  request_.settings.push_back(setting[0]);
+  if (take_text("graph")) return true;
+  request_ = std::move(before);
+  return false;
+}
+
+bool Session::change_text(const std::string& what, const std::function<std::string()>& make, bool merge) {
+  const Document::Mark before = document_.mark();
   try {
-    document_.set(path, value, merge);
+    document_.change(make(), what, merge);
   } catch (const Failure& failure) {
     message(to_string(failure.diagnostic()));
     return false;
   }
-  if (take_text(path)) return true;
-  document_.undo();
+  if (take_text(what)) return true;
+  document_.back_to(before);
   return false;
 }
 
@@ -130,6 +157,7 @@ void Session::show_step(passes::Step step) {
 }
 
 void Session::undo() {
+  end_gizmo_drag();
   const std::string what = document_.last_change();
   if (!document_.undo()) return message("there is nothing to undo");
   if (take_text(what)) message("undone: " + what);
@@ -137,6 +165,7 @@ void Session::undo() {
 }
 
 void Session::redo() {
+  end_gizmo_drag();
   if (!document_.redo()) return message("there is nothing to redo");
   const std::string what = document_.last_change();
   if (take_text(what)) message("redone: " + what);
@@ -163,6 +192,7 @@ bool Session::save(const std::string& path) {
 
 void Session::open(const std::vector<std::string>& files) {
   if (files.empty()) return;
+  set_gizmo({});
   app::JobRequest request = request_;
   request.words = files;
   request.settings.clear();
@@ -198,6 +228,7 @@ void Session::open(const std::vector<std::string>& files) {
 }
 
 void Session::reload() {
+  end_gizmo_drag();
   try {
     if (document_.differs_on_disk() && document_.changed() && document_.last_change() != "the file on the disk")
       message("the scene file was changed on the disk: undo brings back what you had here");
@@ -210,7 +241,9 @@ void Session::reload() {
   else message(said_.back() + "\nthe picture before stays");
 }
 
-void Session::watch_files() {
+// All files that the picture depends on and that may be edited beside the window; a further kind of them is added here. `graph`: one that
+// could not be read yet, so that mending it is seen.
+void Session::watch_files(const app::GraphRequest* graph) {
   std::vector<std::string> files;
   if (!document_.file().empty()) files.push_back(document_.file().string());
   const char* ocio = std::getenv("OCIO");
@@ -218,23 +251,7 @@ void Session::watch_files() {
   else if (ocio && ocio[0]) files.emplace_back(ocio);
   for (const auto& type : job_->desc.types)
     for (const char* file : {"type.toml", "type.glsl"}) files.push_back((type->folder / file).string());
-  Diagnostics ignored; // whoever compiles the graph reports
-  const app::GraphRequest& graph = job_->graph;
-  if (graph.graph.ends_with(".toml")) {
-    const std::filesystem::path path(graph.graph), whole = path.is_absolute() ? path : graph.folder / path;
-    files.push_back(whole.string());
-    try {
-      for (const rg::PassDesc& pass : app::load_graph(graph, ignored).passes) {
-        const rg::Entry* shader = rg::find(pass.params, "shader");
-        const auto* word = shader ? std::get_if<std::string>(&shader->value.data) : nullptr;
-        if (!word || word->find_first_of("/.") == std::string::npos) continue;
-        const std::filesystem::path glsl = std::filesystem::path(*word).is_absolute() ? std::filesystem::path(*word) : whole.parent_path() / *word;
-        files.push_back(glsl.string());
-        files.push_back((glsl.parent_path() / "pass.toml").string());
-      }
-    } catch (const Failure&) { // it is reported where it is used
-    }
-  }
+  for (std::string& file : app::graph_files(graph ? *graph : job_->graph)) files.push_back(std::move(file));
   wishes_.watch = std::move(files);
 }
 
@@ -289,13 +306,11 @@ std::optional<Session::Picked> Session::describe(std::uint32_t id) const {
     for (std::uint64_t i = 0; i < batch.chunks->record_count(); ++i)
       if (batch.chunks->rows[i] == row) out.center = glm::dvec3(batch.instances[instance].world_from_data * glm::dvec4(batch.chunks->center(i), 1.0));
     Diagnostics ignored;
-    for (std::size_t d = 0; d < job_->desc.data.size(); ++d) {
-      if (job_->desc.data[d].generated || job_->desc.data[d].file.value.string() != batch.name) continue;
+    if (const std::size_t d = batch.data; d < job_->desc.data.size() && !job_->desc.data[d].generated) {
       const auto frame = job_->source->frame(d, job_->frame, ignored);
-      if (!frame || row >= frame->count) continue;
-      for (const data::Column& column : frame->columns)
-        if (out.rows.size() < most_rows) out.rows.push_back({column.name, cell_text(column, row)});
-      return out;
+      for (std::size_t c = 0; frame && row < frame->count && c < frame->columns.size(); ++c)
+        if (out.rows.size() < most_rows) out.rows.push_back({frame->columns[c].name, cell_text(frame->columns[c], row)});
+      if (frame && row < frame->count) return out;
     }
     out.rows.push_back({"center", fmt::format("{:.7g}, {:.7g}, {:.7g}", out.center.x, out.center.y, out.center.z)});
     return out;

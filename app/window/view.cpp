@@ -38,7 +38,10 @@ void print_report(const HostReport& report) {
   };
   fmt::print("frames {}\n", report.frames);
   line("input", report.input_ms);
+  line("picture", report.picture_ms);
+  line("compose", report.compose_ms);
   line("panels", report.panels_ms);
+  line("present", report.present_ms);
 }
 
 } // namespace

@@ -2,16 +2,15 @@
 #include "core/scene/realize.hpp"
 
 #include "core/data/series.hpp"
-#include "core/scene/assembly.hpp"
 #include "core/scene/bond_sticks.hpp"
 #include "core/scene/codes.hpp"
 #include "core/scene/drawable.hpp"
 #include "core/scene/expression.hpp"
+#include "core/scene/instances.hpp"
 #include "core/scene/particle_values.hpp"
 #include "core/scene/scene_source.hpp"
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,40 +28,6 @@ std::shared_ptr<const data::Frame> generated_frame(const GeneratedName& name) {
   frame->columns.push_back({"radius", 1, std::move(made.radii), ""});
   if (!made.ends.empty()) frame->columns.push_back({"end", 3, std::move(made.ends), ""});
   return frame;
-}
-
-Bounds world_bounds(const ChunkSet& set, const glm::dmat4& world_from_data) {
-  Bounds out;
-  if (world_from_data == glm::dmat4(1.0)) return set.bounds;
-  for (const Chunk& chunk : set.chunks)
-    for (int i = 0; i < 8; ++i) {
-      const glm::dvec3 corner(i & 1 ? chunk.box_max.x : chunk.box_min.x, i & 2 ? chunk.box_max.y : chunk.box_min.y,
-                              i & 4 ? chunk.box_max.z : chunk.box_min.z);
-      out.add(glm::dvec3(world_from_data * glm::dvec4(chunk.origin + corner, 1.0)));
-    }
-  return out;
-}
-
-// Copies along the edges of the cell, the cell itself first.
-std::vector<glm::dmat4> replicas_of(const DataDesc& desc, const FrameContext& context, Diagnostics& diagnostics) {
-  if (desc.replicas == glm::ivec3(1)) return {glm::dmat4(1.0)};
-  if (!context.frame.box) {
-    diagnostics.error(code::no_cell, desc.loc, fmt::format("{} has no cell to repeat", context.name));
-    return {};
-  }
-  std::vector<glm::dmat4> out;
-  for (int x = 0; x < desc.replicas.x; ++x)
-    for (int y = 0; y < desc.replicas.y; ++y)
-      for (int z = 0; z < desc.replicas.z; ++z)
-        out.push_back(glm::translate(glm::dmat4(1.0), context.frame.box->edges * glm::dvec3(x, y, z)));
-  return out;
-}
-
-std::vector<Instance> instances_of(const DataDesc& desc, const std::vector<glm::dmat4>& replicas, const std::vector<glm::dmat4>& copies) {
-  std::vector<Instance> out;
-  for (const glm::dmat4& replica : replicas)
-    for (const glm::dmat4& copy : copies) out.push_back({desc.transform * replica * copy});
-  return out;
 }
 
 // Radii by the scene's rule; none where neither it nor the file says any and a type other than sphere has its own default.
@@ -109,7 +74,7 @@ std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& contex
   ParticleColors colors = particle_colors(context, desc.color, desc.generated.has_value(), diagnostics);
   apply_opacity(context, desc.opacity, colors, diagnostics);
   const std::vector<Copies> groups = copies_of(frame, desc.assembly, context.name, diagnostics);
-  const std::vector<glm::dmat4> replicas = replicas_of(desc, context, diagnostics);
+  const std::vector<glm::dmat4> replicas = replicas_of(desc, frame, context.name, diagnostics);
   std::optional<Glyphs> glyphs;
   if (make && !diagnostics.has_errors()) glyphs = make(context, desc, radii, diagnostics);
   if ((!make && radii.size() != frame.count) || diagnostics.has_errors()) return {};
@@ -124,7 +89,8 @@ std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& contex
   std::vector<Batch> batches;
   const auto add = [&](const std::string& shape, std::shared_ptr<const ChunkSet> chunks, const Copies& group, std::uint64_t rows) {
     batches.push_back({.name = context.name, .type = shape, .chunks = std::move(chunks), .instances = instances_of(desc, replicas, group.transforms),
-                       .material = desc.material, .color = colors.constant, .alpha = desc.alpha, .row_count = rows});
+                       .material = desc.material, .color = colors.constant, .alpha = desc.alpha, .row_count = rows,
+                       .group = static_cast<std::uint32_t>(&group - groups.data())});
   };
   for (const Copies& group : groups) add(type, chunks_of(group.rows.empty() ? drawable : subset(drawable, group.rows)), group, frame.count);
   if (desc.style != MoleculeStyle::BallAndStick && desc.style != MoleculeStyle::Licorice) return batches;
@@ -153,15 +119,7 @@ void annotate(const DataDesc& desc, const data::Frame& frame, Annotations& annot
     diagnostics.error(code::no_cell, desc.loc, fmt::format("{} has no cell to draw", desc.file.value.string()));
     return;
   }
-  const glm::dmat3 linear(desc.transform);
-  annotations.cells.push_back({glm::dvec3(desc.transform * glm::dvec4(frame.box->origin, 1.0)), linear * frame.box->edges, desc.cell.color, desc.cell.width});
-}
-
-Bounds moved(const Bounds& bounds, const glm::dmat4& m) {
-  Bounds out;
-  for (int i = 0; i < 8 && !bounds.empty(); ++i)
-    out.add(glm::dvec3(m * glm::dvec4(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y, i & 4 ? bounds.max.z : bounds.min.z, 1.0)));
-  return out;
+  annotations.cells.push_back(*cell_of(desc, frame));
 }
 
 class Realizer {
@@ -217,6 +175,7 @@ private:
     }
     for (Batch& batch : make_batches(data, context, scene_.annotations, diagnostics_)) {
       batch.id_base = scene_.particle_count();
+      batch.data = static_cast<std::uint32_t>(i);
       if (!over_series)
         for (const Instance& instance : batch.instances) scene_.bounds.add(world_bounds(*batch.chunks, instance.world_from_data));
       scene_.batches.push_back(std::move(batch));
@@ -236,7 +195,7 @@ private:
       Diagnostics ignored; // what is wrong is told for the frame that is drawn
       reach->radius = largest_reach(context, data, ignored);
       for (const Copies& copies : copies_of(*first, data.assembly, context.name, ignored))
-        for (const Instance& instance : instances_of(data, replicas_of(data, context, ignored), copies.transforms))
+        for (const Instance& instance : instances_of(data, replicas_of(data, *first, context.name, ignored), copies.transforms))
           reach->transforms.push_back(instance.world_from_data);
     }
     Bounds grown;

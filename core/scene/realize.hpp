@@ -25,6 +25,10 @@ class SceneSource;
 // With an index, camera and ranges are those of the series.
 Scene realize(const SceneDesc& desc, Size2d size, SceneSource& source, std::optional<std::uint64_t> index, Diagnostics& diagnostics);
 
+// `scene` as realize() made it of a description that differs from `desc` in the transforms of data sets only: instances, bounds and
+// cells anew, the same to the bit as from realize(); particles and camera stay. False with errors in `diagnostics`: nothing is changed.
+bool place_again(Scene& scene, const SceneDesc& desc, SceneSource& source, std::optional<std::uint64_t> index, Diagnostics& diagnostics);
+
 // The camera of a scene whose data has these bounds: absent numbers are chosen so that all of it is in view.
 Camera complete_camera(const CameraDesc& desc, const Bounds& bounds, Size2d size);
 

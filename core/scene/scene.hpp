@@ -67,6 +67,7 @@ struct Batch {
   double alpha{1.0};
   std::uint64_t id_base{};                // id of particle i of instance k: id_base + k * row_count + row
   std::uint64_t row_count{};              // rows in the file, skipped ones included
+  std::uint32_t data{}, group{};          // which data set of the scene it is of, and which of its groups of rows with copies of their own
 };
 
 struct Scene {

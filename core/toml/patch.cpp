@@ -137,6 +137,28 @@ public:
     return out;
   }
 
+  // `values`: what is put behind the items of the array at the path.
+  std::string append(std::string_view values) {
+    const Node* at = &root_;
+    for (const Word& word : words_)
+      if (at) at = child(*at, word);
+    const std::string list = "[ " + std::string(values) + " ]";
+    const Node added_items = parse("list = " + list, std::string(name_of_text), code_);
+    if (!at) return Patch(text_, path_, list, code_).run();
+    if (at->kind != Kind::Array || !starts_with(*at, '[') || has_header(*at)) refuse("it is no list");
+    Node wanted = *at;
+    for (const Node& item : added_items.find("list")->items) wanted.items.push_back(item);
+    const std::size_t begin = offset_of(text_, at->loc);
+    const std::size_t end = at->items.empty() ? value_end(text_, begin) - 1 : value_end(text_, offset_of(text_, at->items.back().loc));
+    std::string out = spliced(end, end, (at->items.empty() ? " " : ", ") + std::string(values) + (at->items.empty() ? " " : ""));
+    const Node made = parse(out, std::string(name_of_text), code_);
+    const Node* now = &made;
+    for (const Word& word : words_)
+      if (now) now = child(*now, word);
+    if (!now || !same(wanted, *now)) refuse("it cannot be changed where it stands");
+    return out;
+  }
+
 private:
   std::string changed() {
     const Node* at = &root_;
@@ -240,6 +262,10 @@ private:
 
 std::string patched(std::string_view text, std::string_view path, std::string_view value, std::string_view code) {
   return Patch(text, path, value, code).run();
+}
+
+std::string appended(std::string_view text, std::string_view path, std::string_view values, std::string_view code) {
+  return Patch(text, path, "[]", code).append(values);
 }
 
 std::string removed(std::string_view text, std::string_view path, std::string_view code) {

@@ -17,6 +17,9 @@ namespace mote::config {
 // something that is no table; the result says what was asked, or nothing is changed.
 std::string patched(std::string_view text, std::string_view path, std::string_view value, std::string_view code);
 
+// `text` with `values` (TOML, joined by commas) behind what the array at `path` holds; an array that is not there is made. Throws as patched() does.
+std::string appended(std::string_view text, std::string_view path, std::string_view values, std::string_view code);
+
 // `text` without the line of the key at `path`, which must stand in a line of its own. Throws as patched() does; a key that
 // is not there leaves the text as it is.
 std::string removed(std::string_view text, std::string_view path, std::string_view code);

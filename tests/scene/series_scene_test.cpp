@@ -88,5 +88,36 @@ TEST(SpreadFrames, BothEndsAreAmongThem) {
   EXPECT_EQ(some.back(), 999u);
 }
 
+// A scene whose data sets were moved is the one that realize() makes of the moved description, to the bit.
+TEST_F(SeriesScene, PlacedAgainIsRealizedAgain) {
+  write("still.csv", "x,y,z\n9,9,9\n1,2,3\n");
+  write("cell.xyz", "2\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=species:S:1:pos:R:3\nC 0 0 0\nO 1 1 1\n");
+  const auto text = [](const std::string& first, const std::string& second) {
+    return "schema = 1\n[[data]]\nfile = \"t.xyz\"\n" + first + "[[data]]\nfile = \"still.csv\"\n[[data]]\nfile = \"cell.xyz\"\nreplicas = [2, 1, 1]\ncell = true\n" + second;
+  };
+  for (const std::optional<std::uint64_t> index : {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(0), std::optional<std::uint64_t>(3)}) {
+    const SceneDesc before = parse_scene(text("", "transform = [ { scale = 2 } ]\n"), "s.toml", folder, {}, diagnostics);
+    const SceneDesc after = parse_scene(text("transform = [ { rotate = { axis = [0, 1, 1], angle = 33 } }, { translate = [0.1, 7, 0] } ]\n", ""), "s.toml", folder, {}, diagnostics);
+    SceneSource old_source(before), new_source(after);
+    Scene scene = realize(before, {64, 48}, old_source, index, diagnostics);
+    const Scene wanted = realize(after, {64, 48}, new_source, index, diagnostics);
+    ASSERT_FALSE(diagnostics.has_errors()) << printed();
+    const ChunkSet* particles = scene.batches.at(2).chunks.get();
+    ASSERT_TRUE(place_again(scene, after, old_source, index, diagnostics)) << printed();
+    EXPECT_EQ(scene.batches[2].chunks.get(), particles) << "no particle is read again";
+    ASSERT_EQ(scene.batches.size(), wanted.batches.size());
+    for (std::size_t b = 0; b < wanted.batches.size(); ++b) {
+      ASSERT_EQ(scene.batches[b].instances.size(), wanted.batches[b].instances.size());
+      EXPECT_EQ(scene.batches[b].data, b);
+      for (std::size_t k = 0; k < wanted.batches[b].instances.size(); ++k) EXPECT_EQ(scene.batches[b].instances[k].world_from_data, wanted.batches[b].instances[k].world_from_data);
+    }
+    EXPECT_EQ(scene.bounds.min, wanted.bounds.min);
+    EXPECT_EQ(scene.bounds.max, wanted.bounds.max);
+    ASSERT_EQ(scene.annotations.cells.size(), 1u);
+    EXPECT_EQ(scene.annotations.cells[0].corner, wanted.annotations.cells[0].corner);
+    EXPECT_EQ(scene.annotations.cells[0].edges, wanted.annotations.cells[0].edges);
+  }
+}
+
 } // namespace
 } // namespace mote

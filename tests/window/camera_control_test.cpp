@@ -78,6 +78,30 @@ TEST(CameraControl, TrackballGoesOverThePole) {
   EXPECT_LT(control.camera().up.z, 0.0) << "upside down";
 }
 
+TEST(CameraControl, RollTurnsThePictureWithTheMouse) {
+  CameraControl control(front(), cube());
+  const glm::dvec3 point{1, 0, 0}; // right of the middle
+  const glm::dvec2 middle(320, 240), before = pixel_of(control.camera(), point) - middle;
+  control.roll({400, 240}, {320, 320}, size); // from the right to below: a quarter, clockwise
+  const glm::dvec2 after = pixel_of(control.camera(), point) - middle;
+  EXPECT_NEAR(after.x, -before.y, 1e-9);
+  EXPECT_NEAR(after.y, before.x, 1e-9);
+  expect_near(control.camera().eye, front().eye);
+  expect_near(control.camera().target, front().target);
+  // A turntable then turns about what is up in the picture.
+  const glm::dvec3 up = control.camera().up;
+  control.orbit(100, 0, size);
+  expect_near(control.camera().up, up);
+  EXPECT_NEAR(glm::dot(glm::normalize(control.camera().eye), up), 0.0, 1e-9);
+  control.look_along(0, false);
+  expect_near(control.camera().up, {0, 0, 1});
+  control.roll(0.3);
+  control.reset();
+  expect_near(control.camera().up, front().up);
+  control.roll({320, 240}, {320, 240}, size); // no direction at the middle
+  EXPECT_EQ(check(control.camera()), "");
+}
+
 TEST(CameraControl, PanMovesTheTargetPlaneWithTheMouse) {
   for (const bool flat : {false, true}) {
     CameraControl control(front(), cube());

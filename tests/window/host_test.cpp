@@ -69,7 +69,7 @@ TEST_F(HostTest, TheWalk) {
   EXPECT_THAT(ran.out, HasSubstr("frames "));
   EXPECT_THAT(read("scene.toml"), HasSubstr("schema = 1 # kept"));
   EXPECT_THAT(read("scene.toml"), HasSubstr("intensity = 0.5 # bright"));
-  ASSERT_EQ(mote("render scene.toml --size 400x300 --samples 1 -o drawn.png --aov id=drawn.npy").exit, 0);
+  ASSERT_EQ(mote("render scene.toml --size 400x300 -o drawn.png --aov id=drawn.npy").exit, 0);
   const PngPicture shown = read_png((folder / "shown.png").string()), drawn = read_png((folder / "drawn.png").string());
   EXPECT_EQ(shown.rgba8, drawn.rgba8);
   // The command in the screenshot draws it again, ids and all.
@@ -92,6 +92,27 @@ TEST_F(HostTest, RealKeysAndMouse) {
   EXPECT_EQ(ran.exit, 0) << ran.err;
   EXPECT_TRUE(exists("mote-1.png"));
   EXPECT_THAT(read("scene.toml"), Not(HasSubstr("eye = [0.0, -30.0, 0.0]"))) << "the wheel and the drag moved the camera, which was saved";
+}
+
+// A data set moved by its handles, a camera rolled: by real events, saved, and drawn headless as the window showed it.
+TEST_F(HostTest, RealHandles) {
+  NEEDS("Xvfb");
+  NEEDS("xdotool");
+  write("scene.toml", read("scene.toml") + "transform = [ { scale = 1.0 } ] # as measured\n");
+  const Ran ran = displayed("\"$MOTE\" view scene.toml --size 800x600 &\nview=$!\n"
+                            "window=$(timeout 60 xdotool search --sync --onlyvisible --class mote | head -1)\nsleep 1\nxdotool windowfocus $window\n"
+                            "at() { xdotool mousemove --window $window $1 $2; }\nxdotool key w\nsleep 0.5\n"
+                            "at 485 187\nxdotool mousedown 1\nat 500 187\nat 525 190\nxdotool mouseup 1\nxdotool key Escape\nsleep 0.5\n"
+                            "at 600 300\nxdotool keydown ctrl mousedown 1\nat 590 350\nxdotool mouseup 1 keyup ctrl\nsleep 1\n"
+                            "xdotool key s\nfor i in $(seq 100); do [ -s mote-1.png ] && break; sleep 0.1; done\nsleep 0.5\nxdotool key ctrl+s\nsleep 0.5\nxdotool key ctrl+q\n"
+                            "for i in $(seq 100); do kill -0 $view 2>/dev/null || break; sleep 0.1; done\nwait $view");
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_THAT(read("scene.toml"), HasSubstr("transform = [ { scale = 1.0 }, { translate = [0.7"));
+  EXPECT_THAT(read("scene.toml"), HasSubstr("# as measured"));
+  EXPECT_THAT(read("scene.toml"), Not(HasSubstr("up = [0.0, 0.0, 1.0]")));
+  ASSERT_TRUE(exists("mote-1.png"));
+  ASSERT_EQ(mote("render scene.toml --size 800x600 -o drawn.png").exit, 0);
+  EXPECT_EQ(read_png((folder / "mote-1.png").string()).rgba8, read_png((folder / "drawn.png").string()).rgba8);
 }
 
 // While nothing happens, nothing is done: processor time between two looks at a window that is left alone.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Keys, scripts, the pace of frames: what is pure about the window's input.
 #include "app/window/actions.hpp"
+#include "app/window/hud.hpp"
 #include "app/window/pace.hpp"
 #include "app/window/script.hpp"
 
@@ -44,6 +45,19 @@ TEST(Keys, ModifiersMatter) {
   EXPECT_EQ(action_of('s', {}), Action::Screenshot);
   EXPECT_EQ(action_of('s', {.control = true}), Action::Save);
   EXPECT_EQ(action_of('s', {.alt = true}), std::nullopt);
+}
+
+// A display of twice the density: 400 x 300 units of the window system are 800 x 600 pixels, and all texts are twice as large.
+TEST(HighDensity, PlacesArePixelsAndTextsGrow) {
+  EXPECT_EQ(to_pixels(100, 50, {400, 300}, {800, 600}), glm::dvec2(200, 100));
+  EXPECT_EQ(to_pixels(100, 50, {400, 300}, {400, 300}), glm::dvec2(100, 50));
+  EXPECT_EQ(to_pixels(100, 50, {0, 0}, {0, 0}), glm::dvec2(100, 50)) << "a window that is minimized";
+  const std::vector<std::array<std::string, 2>> rows{{"particle 7", "row 7 of a.xyz"}, {"mass", "12.011"}};
+  const FlatPicture usual = text_box(rows, HudPlace::BottomLeft, {400, 300}, 1.0), dense = text_box(rows, HudPlace::BottomLeft, {800, 600}, 2.0);
+  EXPECT_NEAR(dense.size.width, 2.0 * usual.size.width, 2.0);
+  EXPECT_NEAR(dense.size.height, 2.0 * usual.size.height, 2.0);
+  EXPECT_NEAR(dense.x, 2.0 * usual.x, 2.0);
+  EXPECT_NEAR(dense.y, 2.0 * usual.y, 2.0);
 }
 
 std::vector<Step> good(const std::string& text) {
@@ -197,6 +211,16 @@ TEST(Pace, FastPicturesAreNeverDrafts) {
   EXPECT_TRUE(s.pace.draft(s.now));
   (void)s.frame();
   EXPECT_FALSE(s.pace.refined());
+}
+
+TEST(Keys, GizmosAndRoll) {
+  EXPECT_EQ(action_of('w', {}), Action::GizmoMove);
+  EXPECT_EQ(action_of('g', {}), Action::GizmoMove);
+  EXPECT_EQ(action_of('e', {}), Action::GizmoTurn);
+  EXPECT_EQ(action_of('r', {.shift = true}), Action::GizmoScale);
+  EXPECT_EQ(action_of('r', {}), Action::ResetView);
+  EXPECT_EQ(gesture_of(Button::Left, {.control = true}), Gesture::Roll);
+  EXPECT_EQ(gesture_of(Button::Left, {}), Gesture::Orbit);
 }
 
 TEST(Pace, RecoversWhenFramesGetCheap) {

@@ -84,6 +84,19 @@ TEST(Patch, WhatCannotBeWrittenIsRefused) {
   EXPECT_THROW((void)patch("a", "1", "a = = 2"), Failure);
 }
 
+TEST(Patch, AppendsToLists) {
+  const auto append = [](std::string_view text, std::string_view path, std::string_view values) { return appended(text, path, values, "A053"); };
+  const std::string head = "[[data]]\nfile = \"a\" # a\n";
+  EXPECT_EQ(append(head, "data[0].transform", "{ scale = 2 }"), "[[data]]\nfile = \"a\" # a\ntransform = [ { scale = 2 } ]\n") << "made where there is none";
+  EXPECT_EQ(append(head + "transform = [] # none\n", "data[0].transform", "{ scale = 2 }"), head + "transform = [ { scale = 2 } ] # none\n");
+  const std::string two = head + "transform = [\n  { scale = 2 }, # twice\n  { translate = [1, 0, 0] } # to the right ]\n] # end\n";
+  EXPECT_EQ(append(two, "data[0].transform", "{ scale = 3 }, { scale = 4 }"),
+            head + "transform = [\n  { scale = 2 }, # twice\n  { translate = [1, 0, 0] }, { scale = 3 }, { scale = 4 } # to the right ]\n] # end\n");
+  EXPECT_EQ(append(head + "transform = [ { scale = 2 }, ]\n", "data[0].transform", "{ scale = 3 }"), head + "transform = [ { scale = 2 }, { scale = 3 }, ]\n");
+  for (const auto& [path, values] : {std::pair("data[0].file", "1"), std::pair("data[1].transform", "1"), std::pair("data", "{ file = \"b\" }"), std::pair("data[0].transform", "{ scale")})
+    EXPECT_THROW((void)append(head, path, values), Failure) << path;
+}
+
 TEST(Patch, ReadsWhatIsWritten) {
   EXPECT_EQ(written_value(scene, "light.sun.intensity", "A053"), "0.8");
   EXPECT_EQ(written_value(scene, "data[0].color", "A053"), "{ attribute = \"speed\", map = \"viridis\" }");

@@ -178,6 +178,7 @@ private:
     section("Data and frames", true, [&] { data_section(session, state_); });
     section("Mapping", true, [&] { mapping_section(session, state_); });
     section("Lights", true, [&] { light_section(session); });
+    section("Handles", false, [&] { gizmo_section(session); });
     section("Camera", false, [&] { camera_section(session); });
     section("Passes", true, [&] { pass_section(session, state_); });
     section("Slots", false, [&] { slot_section(session, state_, renderer_); });

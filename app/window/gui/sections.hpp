@@ -30,6 +30,7 @@ struct GuiState {
 void data_section(Session& session, GuiState& state);
 void mapping_section(Session& session, GuiState& state);
 void light_section(Session& session);
+void gizmo_section(Session& session);
 void camera_section(Session& session);
 void pass_section(Session& session, GuiState& state);
 void diagnostics_section(Session& session);

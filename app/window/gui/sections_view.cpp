@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace mote::window {
 namespace {
@@ -51,6 +52,27 @@ void light_section(Session& session) {
   if (ImGui::SliderFloat("ambient", &ambient, 0.0f, 1.0f, "%.2f")) session.set("ambient.intensity", toml_number(static_cast<double>(ambient)), true);
 }
 
+void gizmo_section(Session& session) {
+  const std::vector<GizmoTarget> targets = session.gizmo_targets();
+  if (targets.empty()) return ImGui::TextDisabled("there is nothing to move");
+  const std::size_t now = std::min(session.gizmo_target(), targets.size() - 1);
+  if (ImGui::BeginCombo("of", targets[now].name.c_str())) {
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      ImGui::PushID(static_cast<int>(i));
+      if (ImGui::Selectable(targets[i].name.c_str(), i == now)) session.set_gizmo_target(i);
+      ImGui::PopID();
+    }
+    ImGui::EndCombo();
+  }
+  constexpr std::pair<const char*, GizmoMode> modes[] = {{"move", GizmoMode::Move}, {"turn", GizmoMode::Turn}, {"scale", GizmoMode::Scale}};
+  if (ImGui::RadioButton("none", !session.gizmo_mode())) session.set_gizmo({});
+  for (const auto& [word, mode] : modes) {
+    if (!targets[now].can(mode)) continue;
+    ImGui::SameLine();
+    if (ImGui::RadioButton(word, session.gizmo_mode() == mode)) session.set_gizmo(mode);
+  }
+}
+
 void camera_section(Session& session) {
   Camera c = session.camera();
   const auto vector = [](const char* label, glm::dvec3& v, double speed) {
@@ -75,6 +97,9 @@ void camera_section(Session& session) {
   if (ImGui::Button("reset")) session.act(Action::ResetView);
   ImGui::SameLine();
   if (ImGui::Button("copy")) session.act(Action::CopyCamera);
+  if (ImGui::Button("roll left")) session.act(Action::RollLeft);
+  ImGui::SameLine();
+  if (ImGui::Button("roll right")) session.act(Action::RollRight);
 }
 
 } // namespace mote::window
