@@ -6,9 +6,9 @@ set -e
 cd "$(dirname "$0")/../.."
 least=${1:-80}
 cmake -S . -B build/coverage -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS="--coverage -O0" -DMOTE_BUILD_TESTS=ON -DMOTE_BUILD_APP=OFF > /dev/null
-ninja -C build/coverage data_unit data_fields data_molecular fuzz_short
+ninja -C build/coverage data_unit data_fields data_molecular data_hdf5 fuzz_short
 find build/coverage -name '*.gcda' -delete
-for test in data/data_unit data_fields/data_fields data_molecular/data_molecular fuzz/fuzz_short; do build/coverage/tests/$test > /dev/null || true; done
+for test in data/data_unit data_fields/data_fields data_molecular/data_molecular data_hdf5/data_hdf5 fuzz/fuzz_short; do build/coverage/tests/$test > /dev/null || true; done
 objects=build/coverage/core/data/CMakeFiles/mote_data.dir
 low=0
 for source in core/data/reader_*.cpp; do
