@@ -156,6 +156,7 @@ void Host::Impl::frame(Session& session) {
   report.picture_ms.push_back((drawn - began) * 1000.0);
   report.compose_ms.push_back((composed - acquired) * 1000.0);
   report.present_ms.push_back((clock.now() - composed + acquired - drawn) * 1000.0);
+  session.presented(report.present_ms.back());
   if (session.panels_shown()) report.panels_ms.push_back(session.panels_ms());
   if (first_input) report.input_ms.push_back((clock.now() - *first_input) * 1000.0);
   first_input.reset();

@@ -38,7 +38,10 @@ std::optional<double> Pace::due() const {
   return last_change_ + options_.settle_s;
 }
 
-void Pace::drew(bool draft, double ms) {
+double Pace::picture_goal() const { return std::max(options_.goal_ms - fixed_ms_, options_.goal_ms / 3.0); }
+
+void Pace::drew(bool draft, double ms, double fixed_ms) {
+  fixed_ms_ = fixed_ms;
   dirty_ = false;
   if (!draft) {
     full_ms_ = ms;
@@ -46,13 +49,13 @@ void Pace::drew(bool draft, double ms) {
   }
   if (!draft && differs_) return; // says nothing about drafts
   const double drawn_scale = draft ? scale_ : 1.0;
-  if (ms > options_.goal_ms) {
+  if (ms > picture_goal()) {
     quick_ = 0;
     // Time goes with the number of pixels, at most; a little more than that would ask is taken off.
-    scale_ = std::min(scale_, step_below(0.95 * drawn_scale * std::sqrt(options_.goal_ms / ms), options_.least_scale));
+    scale_ = std::min(scale_, step_below(0.95 * drawn_scale * std::sqrt(picture_goal() / ms), options_.least_scale));
   } else if (draft) {
     const double next = step_above(scale_), grown = ms * (next * next) / (scale_ * scale_);
-    quick_ = grown < 0.9 * options_.goal_ms ? quick_ + 1 : 0;
+    quick_ = grown < 0.9 * picture_goal() ? quick_ + 1 : 0;
     if (quick_ >= 3) {
       scale_ = next;
       quick_ = 0;

@@ -34,8 +34,8 @@ public:
   // When a frame will be wanted though nothing happens; nothing: not before the next change.
   [[nodiscard]] std::optional<double> due() const;
 
-  // A frame was drawn.
-  void drew(bool draft, double ms);
+  // A frame was drawn: how long its picture took, and what comes on top whatever its size (panels, putting together, presenting).
+  void drew(bool draft, double ms, double fixed_ms = 0.0);
   // A frame at full quality will take so long (the first one is known only after it was drawn).
   [[nodiscard]] double expected_full_ms() const { return full_ms_; }
 
@@ -43,9 +43,12 @@ public:
   [[nodiscard]] bool settled(double now) const { return !held_ && now >= last_change_ + options_.settle_s; }
 
 private:
+  // Of a picture, so that the whole frame meets the goal; a third of it at least, because smaller pictures help no more then.
+  [[nodiscard]] double picture_goal() const;
+
   PaceOptions options_;
   bool dirty_{true}, refined_{}, held_{}, differs_{};
-  double last_change_{-1e9}, scale_{1.0}, full_ms_{};
+  double last_change_{-1e9}, scale_{1.0}, full_ms_{}, fixed_ms_{};
   int quick_{}; // frames in a row that left room for larger ones
 };
 

@@ -316,7 +316,7 @@ void Session::compose(const gpu::Texture& target) {
   }
   device_.device().queue().wait(presenter_.compose(target, picture_, further));
   device_.check();
-  if (rendered_) pace_.drew(draft_shown_, render_ms_ + ms_since(start));
+  if (rendered_) pace_.drew(draft_shown_, render_ms_, ms_since(start) + present_ms_);
   rendered_ = false;
 }
 

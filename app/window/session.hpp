@@ -73,6 +73,8 @@ public:
   [[nodiscard]] bool shows_new() const { return stale_ || hud_stale_ || rendered_; }
   // The last picture with all that goes over it, into a texture of the window's size; waits.
   void compose(const gpu::Texture& target);
+  // How long the window system took to show what was composed.
+  void presented(double ms) { present_ms_ = ms; }
   [[nodiscard]] bool visible() const { return size_.width > 0 && size_.height > 0; }
   [[nodiscard]] Size2d size() const { return size_; }
 
@@ -189,7 +191,7 @@ private:
   gpu::Texture picture_{};
   bool stale_{true};      // the window shows something older than the state
   bool draft_shown_{};
-  double render_ms_{}, refined_ms_{}; // of the last picture; of the pieces so far
+  double present_ms_{}, render_ms_{}, refined_ms_{}; // of the last picture; of the pieces so far
   bool rendered_{};       // since the last compose
   std::optional<Button> held_{};
   Modifiers held_modifiers_{};

@@ -223,6 +223,23 @@ TEST(Keys, GizmosAndRoll) {
   EXPECT_EQ(gesture_of(Button::Left, {}), Gesture::Orbit);
 }
 
+// What a frame costs besides its picture takes from the picture's share.
+TEST(Pace, WhatComesOnTopMakesPicturesSmaller) {
+  const auto scale_with = [](double fixed) {
+    Pace pace;
+    for (int i = 0; i < 30; ++i) {
+      pace.changed(0.01 * i, true);
+      const bool draft = pace.draft(0.01 * i);
+      pace.drew(draft, 60.0 * (draft ? pace.scale() * pace.scale() : 1.0), fixed);
+    }
+    return pace.scale();
+  };
+  const double without = scale_with(0.0), with = scale_with(12.0);
+  EXPECT_LT(with, without);
+  EXPECT_LE(60.0 * with * with, 12.0);
+  EXPECT_GE(scale_with(500.0), 0.25) << "there smaller pictures help no more";
+}
+
 TEST(Pace, RecoversWhenFramesGetCheap) {
   Simulated s{.full_ms = 500.0};
   for (int i = 0; i < 10; ++i) {
