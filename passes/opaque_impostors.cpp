@@ -60,6 +60,7 @@ public:
     states_ = read_states(params);
     shadow_inputs_.declare(slots, params);
     offsets_ = read_samples(params);
+    boxes_ = params.word("proxy", "tight", {"tight", "box"}, "tight: a rectangle; box: cylinders and cones by the faces of the box around them that are seen, by a geometry stage") == "box";
     analytic_edges_ = params.word("edges", "sampled", {"sampled", "analytic"}, "analytic: outlines blended by what they cover of a pixel") == "analytic";
     steps_ = read_steps(params);
     if (analytic_edges_ && (offsets_.size() > 1 || params.has("blend") || !steps_.whole()))
@@ -210,6 +211,8 @@ private:
       BatchBlock block = draw.block;
       ParticlePipelineKey key = key_for(scene, view, *draw.batch);
       key.expansion = draw.sprites ? Expansion::Point : raster_;
+      key.box = boxes_ && find_particle_type(draw.batch->type)->boxes && gpu::has(context.device().features(), gpu::Feature::GeometryShader);
+      if (key.box) key.expansion = Expansion::Geometry;
       key.near_eye = draw.near_eye;
       key.affine = draw.affine;
       key.targets = into.formats;
@@ -373,7 +376,7 @@ private:
   PlacedView placed_;
   TiledDrawing tiled_;
   std::unique_ptr<SurfaceShading> surfaces_, edge_surfaces_;
-  bool analytic_edges_{};
+  bool analytic_edges_{}, boxes_{};
   gpu::Texture edge_depth_;
   gpu::TextureView edge_depth_view_;
   std::vector<glm::dvec2> offsets_; // samples in a pixel; one: its center

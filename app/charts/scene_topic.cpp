@@ -56,6 +56,15 @@ double SceneTopic::milliseconds(const Method& method) {
   return least;
 }
 
+std::uint64_t SceneTopic::fragments(const Method& method) {
+  FrameRenderer& r = renderer(method, false, false);
+  r.count_work();
+  r.wait(r.draw(view()));
+  for (const rg::PassTiming& pass : r.timings())
+    if (pass.name == "opaque" && pass.counts) return pass.counts->fragment_invocations;
+  return 0;
+}
+
 std::string SceneTopic::text() const {
   std::string words;
   for (const std::string& word : context_.request.words) words += (words.empty() ? "" : " ") + word;

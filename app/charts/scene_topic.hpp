@@ -30,6 +30,8 @@ public:
   DrawnPicture picture(const Method& method, bool aovs);
   // Of a frame with the display pass, AOVs and reading left out: the least of five after two, as other work only adds.
   double milliseconds(const Method& method);
+  // Fragments that pass `opaque` runs in a frame; 0: the device does not count.
+  std::uint64_t fragments(const Method& method);
   [[nodiscard]] View view() const { return job.view(); }
   // "spheres:1e4:fit, 320x180"
   [[nodiscard]] std::string text() const;

@@ -55,12 +55,22 @@ void LayerTracer::add(const Ray& ray, double limit, std::uint32_t placed, std::u
   if (!interval) return;
   const std::uint64_t id = owner.first_id + owner.tree->chunks->rows[record];
   const auto uncut = [&](double t) { return t > 0.0 && t >= near_; };
+  const Batch& batch = world_.scene.batches[owner.batch];
+  const bool absorbs = batch.density > 0.0;
+  const std::size_t before = out.size();
   const auto offer = [&](double t, bool exit) {
-    if (uncut(t) && t <= far_ && t < limit) out.push_back({t, id, placed, record, exit});
+    const bool inner = exit ? interval->inner_out : interval->inner_in;
+    if (uncut(t) && t <= far_ && t < limit && (absorbs || !inner)) out.push_back({t, id, placed, record, exit, inner});
   };
   const bool inside = !uncut(interval->t_in);
   if (two_surfaces_ || !inside) offer(interval->t_in, false);
   if (two_surfaces_ || inside) offer(interval->t_out, true);
+  if (!absorbs) return;
+  const double from = std::max({interval->t_in, near_, 0.0}), to = std::min({interval->t_out, far_, limit});
+  const ChunkSet& chunks = *owner.tree->chunks;
+  const double own = chunks.colors.empty() ? 1.0 : double(chunks.colors[record] >> 24) / 255.0;
+  const double depth = batch.density * own * std::max(0.0, to - from) * glm::length(owner.linear * ray.direction);
+  for (std::size_t i = before; i < out.size(); ++i) out[i].blocks = 1.0 - std::exp(-depth / double(out.size() - before));
 }
 
 std::vector<Layer> LayerTracer::layers(const Ray& ray, double limit) const {
@@ -84,6 +94,7 @@ std::vector<Layer> LayerTracer::layers(const Ray& ray, double limit) const {
 }
 
 double LayerTracer::alpha_of(const Layer& layer) const {
+  if (layer.blocks >= 0.0) return layer.blocks;
   const Placed& p = world_.transparent_placed[layer.placed];
   const ChunkSet& chunks = *p.tree->chunks;
   const double own = chunks.colors.empty() ? 1.0 : double(chunks.colors[layer.record] >> 24) / 255.0;
@@ -92,6 +103,7 @@ double LayerTracer::alpha_of(const Layer& layer) const {
 }
 
 glm::dvec3 LayerTracer::normal(const Layer& layer, const Ray& ray) const {
+  if (layer.inner) return -glm::normalize(ray.direction);
   const Placed& p = world_.transparent_placed[layer.placed];
   const glm::dvec3 n =
       p.tree->shape->normal(particle(*p.tree->chunks, layer.record), local(ray, layer.placed), layer.exit);
@@ -117,7 +129,7 @@ glm::dvec4 LayerTracer::over(const std::vector<Layer>& layers, const Ray& ray, c
 bool LayerTracer::ambiguous(double x, double y, const Sample& sample, const std::vector<Layer>& layers_here) const {
   double before = near_;
   for (const Layer& layer : layers_here) {
-    if (close(layer.t, before)) return true;
+    if (!layer.inner && close(layer.t, before)) return true;
     before = layer.t;
   }
   if (!layers_here.empty() && sample.hit && close(before, sample.hit.t)) return true;

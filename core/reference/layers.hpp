@@ -5,7 +5,8 @@
 //
 // A particle of opacity alpha has two surfaces that block 1 - sqrt(1 - alpha) each (contracts,
 // "Transparency"), so both together block alpha; or, with one surface, the one that an opaque particle
-// would show, which blocks alpha. Ties go to the lowest id, then to the entry.
+// would show, which blocks alpha. With a density d a particle blocks 1 - exp(-d L), L the length of the ray's way within it that is in view,
+// shared out to its surfaces in view. Ties go to the lowest id, then to the entry.
 #pragma once
 
 #include "core/reference/tracer.hpp"
@@ -20,6 +21,8 @@ struct Layer {
   std::uint64_t id{};
   std::uint32_t placed{}, record{}; // World::transparent_placed
   bool exit{};
+  bool inner{};      // within a neighbor of one body; there only with a density
+  double blocks{-1}; // with a density: what this surface blocks
 };
 
 class LayerTracer {

@@ -53,8 +53,8 @@ double sphere_curvature(const Particle& p) { return p.radius; }
 constexpr Shape sphere_shape{"sphere", sphere_bounds, sphere_intersect, sphere_normal, sphere_curvature};
 
 // A new type's row is added here.
-constexpr std::array<const Shape*, 8> shapes{&sphere_shape,    &capsule_shape, &cylinder_shape, &cone_shape, &arrow_shape,
-                                             &ellipsoid_shape, &box_shape,     &superquadric_shape};
+constexpr std::array<const Shape*, 9> shapes{&sphere_shape,    &capsule_shape, &cylinder_shape, &cone_shape, &arrow_shape,
+                                             &ellipsoid_shape, &box_shape,     &superquadric_shape, &polyline_shape};
 
 } // namespace
 

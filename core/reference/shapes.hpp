@@ -15,6 +15,9 @@
 //   arrow         r[1] = (h, shaft radius), r[2] = (head radius, head length, 0, 0), from center - h to the tip center + h
 //   ellipsoid     r[1] = quaternion (x, y, z, w), r[2] = (semi-axes, 0)
 //   box           r[1] = quaternion, r[2] = (half extents, 0)
+//   polyline      r[1] = (h, radius), r[2] = (n, 0), r[3] = (n, 0): a capsule of which the part before the plane through
+//                 center - h with normal r[2], and behind the one through center + h with normal r[3], belongs to neighbors; n = 0: all
+//                 of it. Where a plane ends it there is no surface
 //   superquadric  r[1] = quaternion, r[2] = (semi-axes, 0), r[3] = (e1, e2, 0, 0)
 // A quaternion turns the solid's axes into the data set's and counts by its direction alone. A solid without
 // extent (no radius, an axis of length 0, but for the capsule without length, which is a sphere) is never met.
@@ -48,6 +51,7 @@ Particle particle(const ChunkSet& chunks, std::uint64_t record);
 
 struct Interval {
   double t_in{}, t_out{}; // t_in <= t_out; either sign
+  bool inner_in{}, inner_out{}; // that end lies within a neighbor of one body (polyline): no surface
 };
 
 struct Shape {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Solids of revolution about a segment: capsule, cylinder, cone, arrow.
+// Solids of revolution about a segment: capsule, cylinder, cone, arrow; and the polyline's, a capsule cut by two planes.
 //
 // In the frame whose z is the axis, a ray l + t d meets the double cone |p.xy| = |r + k p.z| where
 // a t^2 + 2 b t + c = 0. With the radius f + g t along the ray (f = r + k l.z, g = k d.z):
@@ -31,6 +31,7 @@ struct End {
   double t{};
   Part part{Part::Side};
   glm::dvec3 normal{0}; // outward, in the frame
+  bool inner{};
 };
 struct Stretch { // of a ray within a solid
   End in{}, out{};
@@ -175,13 +176,32 @@ std::optional<Stretch> capsule(const Particle& p, const Local& at) {
   return s;
 }
 
+// Keeps what of the capsule lies before the plane through `at`; a zero normal keeps all.
+bool cut(Stretch& s, const Local& at, const glm::dvec3& through, const glm::dvec3& normal) {
+  if (normal == glm::dvec3(0)) return true;
+  const glm::dvec3 n = glm::normalize(normal);
+  const double height = glm::dot(at.l - through, n), slope = glm::dot(at.d, n);
+  const bool first = height + s.in.t * slope > 0.0, last = height + s.out.t * slope > 0.0;
+  if (first && last) return false;
+  if (first) s.in = {-height / slope, Part::Side, n, true};
+  if (last) s.out = {-height / slope, Part::Side, n, true};
+  return true;
+}
+
+std::optional<Stretch> polyline(const Particle& p, const Local& at) {
+  auto s = capsule(p, at);
+  const glm::dvec3 end(0, 0, at.frame.half);
+  if (!s || !cut(*s, at, end, into(at.frame.axes, xyz(p, 3))) || !cut(*s, at, -end, into(at.frame.axes, -xyz(p, 2)))) return std::nullopt;
+  return s;
+}
+
 using Solve = std::optional<Stretch> (*)(const Particle&, const Local&);
 
 template <Solve solve> std::optional<Interval> intersect(const Particle& p, const Ray& ray) {
   const Local at = local(p, ray);
   const auto s = solve(p, at);
   if (!s) return std::nullopt;
-  return Interval{at.t + s->in.t, at.t + s->out.t};
+  return Interval{at.t + s->in.t, at.t + s->out.t, s->in.inner, s->out.inner};
 }
 
 template <Solve solve> glm::dvec3 normal(const Particle& p, const Ray& ray, bool exit) {
@@ -226,6 +246,7 @@ double mean_radius(const Particle& p) { return 0.5 * (double(p.record[1].w) + do
 } // namespace
 
 constexpr Shape capsule_shape{"capsule", capsule_bounds, intersect<capsule>, normal<capsule>, radius_of};
+constexpr Shape polyline_shape{"polyline", capsule_bounds, intersect<polyline>, normal<polyline>, radius_of};
 constexpr Shape cylinder_shape{"cylinder", frustum_bounds, intersect<cylinder>, normal<cylinder>, mean_radius};
 constexpr Shape cone_shape{"cone", frustum_bounds, intersect<cone>, normal<cone>, mean_radius};
 constexpr Shape arrow_shape{"arrow", arrow_bounds, intersect<arrow>, normal<arrow>, radius_of};

@@ -68,7 +68,7 @@ inline Bounds box_around(const glm::dvec3& center, const glm::dvec3& half) {
 }
 
 // Rows of the table, by family.
-extern const Shape capsule_shape, cylinder_shape, cone_shape, arrow_shape;   // shapes_axial.cpp
+extern const Shape capsule_shape, cylinder_shape, cone_shape, arrow_shape, polyline_shape; // shapes_axial.cpp
 extern const Shape ellipsoid_shape, box_shape, superquadric_shape;           // shapes_oriented.cpp, shapes_superquadric.cpp
 
 } // namespace mote::reference

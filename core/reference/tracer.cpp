@@ -92,15 +92,16 @@ void Tracer::leaf(Search& search, std::uint32_t placed, std::uint32_t record) co
   for (std::size_t i = 0; i < search.count; ++i) {
     const auto interval = owner.tree->shape->intersect(p, search.local[i]);
     if (!interval) continue;
-    const auto [t_in, t_out] = *interval;
+    const double t_in = interval->t_in, t_out = interval->t_out;
     const auto visible = [&](double t) { return t > 0.0 && t >= near_ && t <= far_; };
     if (i == 0) {
       const double margin = near_ > 0.0 ? near_margin_ : 0x1p-21 * std::max(std::abs(t_in), std::abs(t_out));
       search.near_doubt |= std::abs(t_in - near_) <= margin || std::abs(t_out - near_) <= margin;
       search.far_doubt |= std::abs(t_in - far_) <= far_margin_ || std::abs(t_out - far_) <= far_margin_;
     }
-    hit.exit = !visible(t_in);
+    hit.exit = interval->inner_in || !visible(t_in);
     hit.t = hit.exit ? t_out : t_in;
+    if (hit.exit && interval->inner_out) continue;
     if (visible(hit.t)) search.offer(i, hit);
   }
 }
@@ -181,7 +182,7 @@ bool Tracer::occluded(const Ray& ray, double t_max, std::uint64_t skip_id) const
              const auto interval = owner.tree->shape->intersect(particle(*owner.tree->chunks, record), r);
              if (!interval) continue;
              const auto between = [&](double t) { return t > 0.0 && t < t_max; };
-             if (between(interval->t_in) || between(interval->t_out)) limit = -1.0;
+             if ((!interval->inner_in && between(interval->t_in)) || (!interval->inner_out && between(interval->t_out))) limit = -1.0;
            }
          });
   };

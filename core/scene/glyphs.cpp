@@ -25,6 +25,7 @@ constexpr std::array glyph_types{
     GlyphType{"cylinder", make_axial},
     GlyphType{"cone", make_axial},
     GlyphType{"arrow", make_axial},
+    GlyphType{"polyline", make_polyline},
 };
 
 } // namespace

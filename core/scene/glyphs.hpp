@@ -46,6 +46,7 @@ const std::vector<std::string>& scene_particle_types(); // shipped ones that a s
 
 Glyphs make_axial(const FrameContext& context, const DataDesc& desc, const std::vector<double>& radii, Diagnostics& diagnostics);
 Glyphs make_oriented(const FrameContext& context, const DataDesc& desc, const std::vector<double>& radii, Diagnostics& diagnostics);
+Glyphs make_polyline(const FrameContext& context, const DataDesc& desc, const std::vector<double>& radii, Diagnostics& diagnostics);
 Glyphs make_user(const FrameContext& context, const DataDesc& desc, const std::vector<double>& radii, Diagnostics& diagnostics);
 
 // Unit quaternions of each row, as the scene or the file says; what has none gets Verdict::Told and is reported (S062).

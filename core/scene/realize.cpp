@@ -89,7 +89,7 @@ std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& contex
   std::vector<Batch> batches;
   const auto add = [&](const std::string& shape, std::shared_ptr<const ChunkSet> chunks, const Copies& group, std::uint64_t rows) {
     batches.push_back({.name = context.name, .type = shape, .chunks = std::move(chunks), .instances = instances_of(desc, replicas, group.transforms),
-                       .material = desc.material, .color = colors.constant, .alpha = desc.alpha, .row_count = rows,
+                       .material = desc.material, .color = colors.constant, .alpha = desc.alpha, .density = desc.density, .row_count = rows,
                        .group = static_cast<std::uint32_t>(&group - groups.data())});
   };
   for (const Copies& group : groups) add(type, chunks_of(group.rows.empty() ? drawable : subset(drawable, group.rows)), group, frame.count);

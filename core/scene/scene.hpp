@@ -65,6 +65,7 @@ struct Batch {
   Material material{};
   glm::dvec3 color{0.8};                  // working space; used when chunks->colors is empty
   double alpha{1.0};
+  double density{};                       // above 0: absorption per length in place of alpha, which is then below 1 and else unused
   std::uint64_t id_base{};                // id of particle i of instance k: id_base + k * row_count + row
   std::uint64_t row_count{};              // rows in the file, skipped ones included
   std::uint32_t data{}, group{};          // which data set of the scene it is of, and which of its groups of rows with copies of their own

@@ -71,6 +71,16 @@ void read_file(TableReader& reader, const std::filesystem::path& folder, DataDes
   data.further.assign(files.begin() + 1, files.end());
 }
 
+// Opacities of single particles are factors of it.
+void read_density(TableReader& reader, DataDesc& data) {
+  const auto density = reader.number("density", config::positive);
+  if (!density) return;
+  if (reader.find("alpha") && data.opacity.rule == AlphaRule::Constant)
+    reader.diagnostics().error(code::key_not_of_kind, reader.find("density")->loc, reader.name_of("density") + " and alpha both say how much light passes; one of them is enough");
+  data.density = *density;
+  data.alpha = 0.5;
+}
+
 const std::vector<std::string> styles{"spacefill", "ball_and_stick", "licorice"}; // order of MoleculeStyle, behind None
 
 void read_style(TableReader& reader, DataDesc& data) {
@@ -165,6 +175,7 @@ DataDesc read_data(const Node& table, std::size_t index, const std::filesystem::
   read_shape(reader, data);
   data.color = read_particle_color(reader, linear);
   data.opacity = read_opacity(reader, data.alpha);
+  read_density(reader, data);
   if (const auto select = reader.text("select")) data.select = Located<std::string>{*select, reader.find("select")->loc};
   read_style(reader, data);
   read_periodicity(reader, data);

@@ -103,6 +103,10 @@ struct OrientedDesc {
   std::optional<Located<std::string>> exponents_of{}; // a column of two numbers
 };
 
+struct PolylineDesc {
+  std::optional<Located<std::string>> chain{}; // whose rows are one line; absent: the column "chain", else all
+};
+
 // What an attribute of a type from files is: a column or one number for all.
 struct AttributeDesc {
   std::string name{};
@@ -126,10 +130,12 @@ struct DataDesc {
   RadiusDesc radius{};
   AxialDesc axial{};
   OrientedDesc oriented{};
+  PolylineDesc polyline{};
   std::shared_ptr<UserType> user{};          // null: a shipped type
   std::vector<AttributeDesc> attributes{};   // of `user`
   ColorDesc color{};
   double alpha{1.0};
+  double density{};                          // above 0: absorption per world length; alpha is below 1 then
   AlphaDesc opacity{};                       // Constant: `alpha`
   Material material{};
   MoleculeStyle style{MoleculeStyle::None};

@@ -158,6 +158,8 @@ void read_shape(TableReader& reader, DataDesc& data) {
   }
   if (find_glyph_maker(data.type) == make_axial) read_axial(reader, data);
   if (find_glyph_maker(data.type) == make_oriented) read_oriented(reader, data);
+  if (find_glyph_maker(data.type) == make_polyline)
+    if (const auto chain = reader.text("chain")) data.polyline.chain = Located<std::string>{*chain, reader.find("chain")->loc};
 }
 
 } // namespace mote::scene_parser

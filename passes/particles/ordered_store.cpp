@@ -51,7 +51,7 @@ OrderedStore::Signature OrderedStore::signature_of(const Scene& scene, const Vie
     s.sets.push_back(batch.chunks);
     add(v, batch.color);
     const Material& m = batch.material;
-    v.insert(v.end(), {batch.alpha, double(m.model), m.ambient, m.diffuse, m.specular, m.exponent, double(batch.id_base), double(batch.row_count)});
+    v.insert(v.end(), {batch.alpha, batch.density, double(m.model), m.ambient, m.diffuse, m.specular, m.exponent, double(batch.id_base), double(batch.row_count)});
     for (const Instance& instance : batch.instances)
       for (int c = 0; c < 4; ++c) add(v, glm::dvec3(instance.world_from_data[c]));
   }

@@ -205,7 +205,7 @@ BatchBlock batch_block(const Batch& batch, std::size_t instance, const View& vie
   block.linear1 = glm::vec4(glm::vec3(linear[1]), 0.0f);
   block.linear2 = glm::vec4(glm::vec3(linear[2]), 0.0f);
   if (!similarity_scale(m)) set_shape(linear, block);
-  block.color = glm::vec4(glm::vec3(batch.color), static_cast<float>(batch.alpha));
+  block.color = glm::vec4(glm::vec3(batch.color), static_cast<float>(batch.density > 0.0 ? -batch.density : batch.alpha));
   block.material = glm::vec4(glm::dvec4(material.ambient, material.diffuse, material.specular, material.exponent));
   block.id_base = static_cast<std::uint32_t>(batch.id_base + instance * batch.row_count);
   return block;

@@ -20,9 +20,10 @@ std::vector<ParticleType> types{
     {"ellipsoid", "three axes of their own length and direction", 3, 4, false, rectangles, all_phases},
     {"box", "three axes of their own length and direction", 3, 4, false, rectangles, all_phases},
     {"superquadric", "three axes and two exponents (Barr): from octahedron over ellipsoid to box", 4, 4, false, rectangles, all_phases},
-    {"cylinder", "a segment and two radii, flat or open ends", 3, 3, false, rectangles, all_phases},
-    {"cone", "a segment and two radii (one may be 0), closed", 3, 3, false, rectangles, all_phases},
+    {"cylinder", "a segment and two radii, flat or open ends", 3, 3, false, rectangles, all_phases, true},
+    {"cone", "a segment and two radii (one may be 0), closed", 3, 3, false, rectangles, all_phases, true},
     {"arrow", "a segment, shaft and head as one solid", 3, 3, false, rectangles, all_phases},
+    {"polyline", "a chain of segments and a radius, smooth at its joints", 4, 4, false, rectangles, all_phases},
 };
 
 constexpr std::array expansions{Expansion::Vertex, Expansion::Geometry, Expansion::Compute, Expansion::Point};

@@ -30,6 +30,7 @@ struct ParticleType {
   bool analytic_edges{};             // its shader's outline() is more than covered or not
   std::vector<Expansion> expansions{};
   std::vector<Phase> phases{};
+  bool boxes{};                      // expand/box.geom draws it, too
 };
 
 std::span<const ParticleType> particle_types();

@@ -26,7 +26,7 @@ std::string fragment_of(const ParticlePipelineKey& key) {
 std::string to_string(const ParticlePipelineKey& k) {
   return fmt::format("{}{}{} / {} / {} aov={} {} lights={}{} specular={}{}", k.type, k.affine ? " affine" : "", k.near_eye ? " near" : "", to_string(k.expansion), to_string(k.phase), k.aovs,
                      k.orthographic ? "orthographic" : "perspective", k.light_count, k.local_lights ? " local" : "",
-                     k.specular_model, k.per_particle_color ? " colors" : "") + (k.head_light_only ? " head light" : "") + (k.step != Step::Depth ? " " + to_string(k.step) : "");
+                     k.specular_model, k.per_particle_color ? " colors" : "") + (k.head_light_only ? " head light" : "") + (k.step != Step::Depth ? " " + to_string(k.step) : "") + (k.box ? " box" : "");
 }
 
 ParticlePipelineKey key_for(const Scene& scene, const View& view, const Batch& batch) {
@@ -101,9 +101,10 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   const bool geometry = key.expansion == Expansion::Geometry;
   const bool point = key.expansion == Expansion::Point;
   const std::string folder = key.type + (key.affine ? "/affine" : "") + (key.near_eye ? "/near" : "");
-  const gpu::ShaderModule vertex = module(folder + (geometry ? "/geometry.vert" : point ? "/point.vert" : key.step == Step::Points ? "/fixed.vert" : "/vertex.vert"));
+  const gpu::ShaderModule vertex =
+      module(folder + (key.box ? "/box.vert" : geometry ? "/geometry.vert" : point ? "/point.vert" : key.step == Step::Points ? "/fixed.vert" : "/vertex.vert"));
   const gpu::ShaderModule fragment = module(folder + "/" + fragment_of(key));
-  const gpu::ShaderModule geometry_module = geometry ? module(folder + "/geometry.geom") : gpu::ShaderModule();
+  const gpu::ShaderModule geometry_module = geometry ? module(folder + (key.box ? "/box.geom" : "/geometry.geom")) : gpu::ShaderModule();
   const std::vector<gpu::SpecializationConstant> constants = particle_constants(key);
   std::vector<gpu::SpecializationConstant> fragment_constants = constants;
   if (key.step != Step::Depth) fragment_constants.push_back(gpu::spec(27, static_cast<std::uint32_t>(key.step)));

@@ -38,6 +38,7 @@ struct ParticlePipelineKey {
   DrawStates states{};
   float proxy_slack{}; // pixels
   bool edges{};        // phase Surface: coverage, too
+  bool box{};          // expansion Geometry: faces of a box in place of a rectangle
   std::uint32_t written{0xFFFFFFFF}; // targets from this one on are left alone
   Step step{Step::Depth};            // phase Opaque, without AOVs
   std::uint32_t type_number{};       // phase Shadow: what a map of casters says

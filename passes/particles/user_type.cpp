@@ -81,10 +81,19 @@ Variant variant_of(std::string key) {
   return out;
 }
 
-// Does the type's text compile? The compiler's first complaint has its line.
+// Does the type's text compile, alone and with what draws it (whose names it may have taken)? The compiler's first complaint has
+// its line.
 bool compiles(const UserType& type, const std::string& cache_directory, Diagnostics& diagnostics) {
+  const std::array<std::pair<const char*, std::vector<gpu::ShaderDefine>>, 4> stages{{{"particles/user/measure.comp", {}}, {"particles/expand/vertex.vert", {}},
+      {"particles/phase/opaque.frag", {{"AOV", "7"}}}, {"particles/tiles/cast.comp", {{"TILES", "1"}, {"LANES", "8"}, {"INT32", "1"}}}}};
+  for (const char* function : {"bound", "hit", "surface", "inside"}) {
+    const std::string name(function);
+    if (type.glsl.find(name + "(") != std::string::npos || type.glsl.find(name + " (") != std::string::npos) continue;
+    diagnostics.error("P022", {type.shader()}, fmt::format("the particle type '{}' has no function '{}'", type.name, name), {"type.glsl gives bound, hit, surface and inside"});
+    return false;
+  }
   try {
-    (void)compile_shader("particles/user/measure.comp", texts_of(type), cache_directory);
+    for (const auto& [stage, defines] : stages) (void)compile_shader(stage, texts_of(type), cache_directory, defines);
     return true;
   } catch (const Failure& failure) {
     const Diagnostic& d = failure.diagnostic();

@@ -17,6 +17,7 @@
 //   bool passes_thin(Ray, Particle, Interval, float radius)   thinner than that and passed nearer than that; after a miss, too
 //   Outline outline(Ray, Particle, Interval)         where the ray's pixel lies to the outline; for analytic edges
 //   vec3 outward_normal(Ray, Particle, Interval, bool exit)   at one end of the interval; unit
+//   with HAS_INNER_ENDS: bool inner_end(Interval, bool exit)   that end lies within a neighbor of one body: no surface
 //
 // own_space.glsl has a particle's own space, in which all but the sphere say these, bounds.glsl the proxies of balls, discs
 // and hulls, axial.glsl what types with an axis share.
@@ -67,5 +68,9 @@ struct Outline {
 };
 
 #include "type.glsl"
+
+#ifndef HAS_INNER_ENDS
+bool inner_end(Interval hit, bool exit) { return false; }
+#endif
 
 #endif

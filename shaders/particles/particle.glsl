@@ -10,7 +10,7 @@
 // Mirrors BatchBlock of passes/particles/particle_store.hpp.
 //   linear0..2_scale: columns of Placement.linear; w of the first: scale; with AFFINE (a placement that is no
 //                     similarity) the three w: lengths of the half axes that the unit sphere gets, negative where it mirrors
-//   color:            working space, straight alpha; rgb used where particles have no color of their own
+//   color:            working space, straight alpha or, below 0, the negative density; rgb used where particles have no color of their own
 //   material:         ambient, diffuse, specular, exponent
 //   id_base:          id of row 0 of this instance
 //   first_near:       NEAR_EYE: place of the draw's first particle among the near payloads

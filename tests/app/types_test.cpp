@@ -121,5 +121,27 @@ TEST_F(Types, InfoAndKindsKnowThem) {
   EXPECT_THAT(mote("graph --kinds").out, Not(HasSubstr("ball ")));
 }
 
+// Two chains by the rows' order, one row of which a selection takes out; and what density says beside alpha.
+TEST_F(Types, PolylinesAndDensity) {
+  write("line.csv", "x,y,z,chain,radius\n0,0,0,1,0.2\n0,0,1,2,0.2\n3,0,0,1,0.2\n3,0,1,2,0.2\n");
+  write("line.toml", "schema = 1\n" + camera + "[[data]]\nfile = \"line.csv\"\ntype = \"polyline\"\n");
+  const Ran ran = mote("render line.toml --size 120x80 --aov id=id.npy -o out.png");
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_GT(seen("id.npy", 0), 100u);
+  EXPECT_GT(seen("id.npy", 1), 100u);
+  EXPECT_EQ(seen("id.npy", 2) + seen("id.npy", 3), 0u) << "ends of chains";
+  const Ran one = mote("render line.toml --set 'data[0].select=\"chain == 2\"' --size 120x80 --aov id=id.npy -o out.png");
+  ASSERT_EQ(one.exit, 0) << one.err;
+  EXPECT_EQ(seen("id.npy", 0), 0u);
+  EXPECT_GT(seen("id.npy", 1), 100u);
+  EXPECT_EQ(mote("render line.toml --set 'data[0].density=0.7' --size 60x40 -o dense.png").exit, 0);
+  const Ran both = mote("render line.toml --set 'data[0].density=0.7' --set 'data[0].alpha=0.5' -o no.png");
+  EXPECT_EQ(both.exit, 3);
+  EXPECT_THAT(both.err, AllOf(HasSubstr("error S015"), HasSubstr("one of them is enough")));
+  const Ran chain = mote("render line.toml --set 'data[0].chain=\"chian\"' -o no.png");
+  EXPECT_EQ(chain.exit, 3);
+  EXPECT_THAT(chain.err, AllOf(HasSubstr("error S021"), HasSubstr("Did you mean 'chain'?")));
+}
+
 } // namespace
 } // namespace mote::test

@@ -22,6 +22,15 @@ std::vector<Glyph> overlapping(const std::string& type, std::size_t count) {
     Glyph g{center, glm::length(glm::dvec3(a)) * 1.001, 0.2, {q, glm::vec4(a, 0)}};
     if (type == "superquadric") g.rest.push_back(glm::vec4(1.0 + 0.5 * u(random), 1.0 + 0.5 * u(random), 0, 0));
     if (type == "capsule") g = {center, 1.2, 0.2, {glm::vec4(0.6f * glm::vec3(q), 0.2f + 0.3f * a.z)}};
+    if (type == "cylinder" || type == "cone" || type == "arrow") {
+      const glm::vec3 h = 0.7f * glm::normalize(glm::vec3(q));
+      const float r = 0.2f + 0.3f * a.z;
+      g = {center, 1.2, 0.15, {glm::vec4(h, type == "arrow" ? 0.5f * r : r), type == "arrow" ? glm::vec4(r, 0.6f, 0, 0) : glm::vec4(type == "cone" ? 0.1f : 0.8f * r, 0, 0, 0)}};
+    }
+    if (type == "polyline") { // cut at one end
+      const glm::vec3 h = 0.6f * glm::normalize(glm::vec3(q));
+      g = {center, 1.2, 0.2, {glm::vec4(h, 0.2f + 0.3f * a.z), glm::vec4(0), glm::vec4(glm::normalize(h + 0.2f * a), 0)}};
+    }
     out.push_back(std::move(g));
   }
   return out;
@@ -30,7 +39,7 @@ std::vector<Glyph> overlapping(const std::string& type, std::size_t count) {
 const auto type_names = [](const auto& type) { return type.param; };
 
 class GlyphTransparency : public GraphTest, public ::testing::WithParamInterface<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Types, GlyphTransparency, ::testing::Values("capsule", "ellipsoid", "box", "superquadric"), type_names);
+INSTANTIATE_TEST_SUITE_P(Types, GlyphTransparency, ::testing::Values("capsule", "cylinder", "cone", "arrow", "ellipsoid", "box", "superquadric", "polyline"), type_names);
 
 TEST_P(GlyphTransparency, ExactOrderEqualsTheReference) {
   Scene scene = glyph_scene(GetParam(), overlapping(GetParam(), 150), {0x80FF6040u, 0xC040FF60u, 0x604060FFu});
@@ -60,7 +69,7 @@ params = { oit = "exact" }
     }
     EXPECT_GT(sure, reference.color.size() * 9 / 10);
     EXPECT_GT(layered, reference.color.size() / 10);
-    EXPECT_LE(wrong, GetParam() == "ellipsoid" || GetParam() == "capsule" ? 0u : sure / 1000) << "edges between faces of one particle excepted";
+    EXPECT_LE(wrong, GetParam() == "ellipsoid" || GetParam() == "capsule" || GetParam() == "polyline" ? 0u : sure / 1000) << "edges between faces of one particle excepted";
   }
 }
 
@@ -68,7 +77,7 @@ class GlyphShadows : public GpuTest, public ::testing::WithParamInterface<std::s
 protected:
   GlyphShadows() { graph_ = "shadowed"; }
 };
-INSTANTIATE_TEST_SUITE_P(Types, GlyphShadows, ::testing::Values("capsule", "ellipsoid", "box", "superquadric"), type_names);
+INSTANTIATE_TEST_SUITE_P(Types, GlyphShadows, ::testing::Values("capsule", "cylinder", "cone", "arrow", "ellipsoid", "box", "superquadric", "polyline"), type_names);
 
 TEST_P(GlyphShadows, MapsOfCastersEqualShadowRays) {
   Scene scene = glyph_scene(GetParam(), overlapping(GetParam(), 60));

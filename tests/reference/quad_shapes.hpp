@@ -100,6 +100,28 @@ inline QuadHits quad_hits(std::string_view type, const Record& r, Q3 o, const Q3
       for (const auto& t : roots(dot(d, d), dot(f, d), dot(f, f) - radius * radius))
         if (t && quad(sign) * dot(o + *t * d, h) >= hh) hits.add(*t, f + *t * d);
     }
+  } else if (type == "polyline") { // where the ray meets the capsule or a plane, and is in all three
+    const Q3 h = g * q3(glm::dvec3(r[1]));
+    const quad radius = size(r[1].w), hh = dot(h, h);
+    const std::array<Q3, 2> normals{quad(-1) * q3(glm::dvec3(r[2])), q3(glm::dvec3(r[3]))};
+    const auto height = [&](std::size_t k, const Q3& p) { return dot(p - quad(k == 0 ? -1 : 1) * h, normals[k]); };
+    const auto from_axis = [&](const Q3& p) {
+      const quad along = dot(p, h) / hh;
+      return p - (along < quad(-1) ? quad(-1) : along > quad(1) ? quad(1) : along) * h;
+    };
+    QuadHits whole = quad_hits("capsule", r, o, d, grow);
+    const quad tiny = quad(1e-25) * radius;
+    for (const auto& [t, n] : {std::pair(whole.t_in, whole.n_in), std::pair(whole.t_out, whole.n_out)}) {
+      const Q3 p = o + t * d;
+      if (whole.hit && height(0, p) <= tiny && height(1, p) <= tiny) hits.add(t, n);
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+      const quad slope = dot(d, normals[k]);
+      if (slope == quad(0)) continue;
+      const quad t = -height(k, o) / slope;
+      const Q3 p = o + t * d;
+      if (length(from_axis(p)) <= radius && height(1 - k, p) <= tiny) hits.add(t, normals[k]);
+    }
   } else if (type == "cylinder" || type == "cone") {
     add_frustum(hits, o, d, {}, g * q3(glm::dvec3(r[1])), size(r[1].w), size(r[2].x), type == "cone" || r[2].y == 0.0f);
   } else if (type == "arrow") {

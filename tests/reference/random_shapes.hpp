@@ -64,11 +64,18 @@ inline Case random_case(std::string_view type, Dice& dice, bool aligned, bool ne
     c.record[2] = glm::vec4(static_cast<float>(r1), 0, 0, 0);
     if (type == "cone" && dice.between(0, 1) < 0.5) c.record[2].x = 0.0f;
     if (type == "arrow") c.record[2] = glm::vec4(static_cast<float>(2.5 * r0), static_cast<float>(dice.between(0.1, 2.0)), 0, 0);
+    if (type == "polyline") {
+      c.record[1].w = static_cast<float>(0.8 * r0);
+      const auto plane = [&] { return glm::vec4(dice.between(0, 1) < 0.2 ? glm::vec3(0) : glm::vec3(glm::normalize(h + dice.between(0, 1) * dice.direction())), 0); };
+      c.record[2] = plane();
+      c.record[3] = plane();
+    }
     const glm::dvec3 x = glm::normalize(glm::cross(h, aligned ? glm::dvec3(0, 1, 0) : dice.direction()));
     c.axes = glm::dmat3(x, glm::cross(h, x), h);
-    const double wide = type == "capsule" ? r0 : std::max(r0, double(c.record[2].x));
-    c.extents = {wide, wide, 1.0 + (type == "capsule" ? r0 : 0.0)};
-    c.thin = std::min(r0, c.record[2].x > 0.0f && type != "capsule" ? double(c.record[2].x) : r0);
+    const bool round = type == "capsule" || type == "polyline";
+    const double wide = round ? r0 : std::max(r0, double(c.record[2].x));
+    c.extents = {wide, wide, 1.0 + (round ? r0 : 0.0)};
+    c.thin = std::min(r0, c.record[2].x > 0.0f && !round ? double(c.record[2].x) : r0);
   }
   c.record[0] = glm::vec4(0, 0, 0, static_cast<float>(c.size() * 1.001));
   return c;

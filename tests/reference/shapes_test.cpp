@@ -194,6 +194,7 @@ void check_type(std::string_view type, bool open = false) {
 }
 
 TEST(ReferenceShapes, Capsule) { check_type("capsule"); }
+TEST(ReferenceShapes, Polyline) { check_type("polyline"); }
 TEST(ReferenceShapes, Cylinder) { check_type("cylinder"); }
 TEST(ReferenceShapes, OpenCylinder) { check_type("cylinder", true); }
 TEST(ReferenceShapes, Cone) { check_type("cone"); }

@@ -31,8 +31,8 @@ void main() {
 
   // The entry, or the inner wall where the entry lies behind the eye or before the near plane.
   float near = frame.sample_near_far.z;
-  bool inside = cull == 1 || !(hit.t_in > 0.0 && hit.t_in >= near);
-  if (cull == 2 && inside) discard;
+  bool inside = cull == 1 || inner_end(hit, false) || !(hit.t_in > 0.0 && hit.t_in >= near);
+  if (inside && (cull == 2 || inner_end(hit, true))) discard;
   float t = inside ? hit.t_out : hit.t_in;
   vec3 outward = outward_normal(ray, particle, hit, inside);
   vec3 normal = inside ? -outward : outward;
@@ -47,7 +47,7 @@ void main() {
 
   Surface at = Surface(ray.origin + t * ray.direction, normal, -normalize(ray.direction));
   vec3 color = head_light_only ? v_color.rgb + max(-normal.z, 0.0) * v_lit : shade(at, v_color.rgb, batch.material);
-  o_color = vec4(violation ? vec3(1.0, 0.0, 1.0) : color, blended ? v_color.a : 1.0);
+  o_color = vec4(violation ? vec3(1.0, 0.0, 1.0) : color, blended && v_color.a >= 0.0 ? v_color.a : 1.0);
 #if (AOV & 1) != 0
   o_depth = t;
 #endif

@@ -27,7 +27,9 @@ void main() {
   covered = covered || passes_thin(ray, particle, hit, proxy_slack / frame.viewport.z * (orthographic ? 1.0 : hit.t_in));
 #endif
   if (!covered) discard;
-  float t = hit.t_in > 0.0 ? hit.t_in : hit.t_out; // a light inside a particle shines on its inner wall
+  bool inside = !(hit.t_in > 0.0) || inner_end(hit, false);
+  float t = inside ? hit.t_out : hit.t_in; // a light inside a particle shines on its inner wall
+  if (inside && inner_end(hit, true)) discard;
   if (!(t > 0.0 && t <= frame.sample_near_far.w)) discard;
   gl_FragDepth = encode_depth(t);
 #ifdef SHADOW_IDS

@@ -55,8 +55,8 @@ void main() {
   if (!intersect(ray, particle, hit)) discard;
 #endif
   float near = frame.sample_near_far.z;
-  bool inside = cull == 1 || !(hit.t_in > 0.0 && hit.t_in >= near);
-  if (cull == 2 && inside) discard;
+  bool inside = cull == 1 || inner_end(hit, false) || !(hit.t_in > 0.0 && hit.t_in >= near);
+  if (inside && (cull == 2 || inner_end(hit, true))) discard;
   float t = inside ? hit.t_out : hit.t_in;
   vec3 outward = outward_normal(ray, particle, hit, inside);
   if (!(t > 0.0 && t >= near && t <= frame.sample_near_far.w)) discard;

@@ -45,6 +45,17 @@ layout(location = 0) out vec4 o_color;
 layout(depth_less) out float gl_FragDepth;
 #endif
 
+// The nearest depth that an earlier pass left; farther than everything where there is none.
+float opaque_at() {
+  float there = has_depth ? texelFetch(opaque_depth, ivec2(gl_FragCoord.xy), 0).r : 0.0;
+  return there > 0.0 ? frame.depth_near.x / there : 1e38;
+}
+// What the way within the particle absorbs, as far as it is in view: what each of `surfaces` blocks, so that all do.
+float absorbed(Ray ray, Interval hit, float density, float surfaces) {
+  float from = max(hit.t_in, max(frame.sample_near_far.z, 0.0)), to = min(hit.t_out, min(frame.sample_near_far.w, opaque_at()));
+  return 1.0 - exp(-density * max(to - from, 0.0) * length(ray.direction) / surfaces);
+}
+
 // Is the surface at this depth in view, and does it pass the test against what an earlier pass drew?
 bool shows(float t) {
   if (!(t > 0.0 && t >= frame.sample_near_far.z && t <= frame.sample_near_far.w)) return false;
@@ -63,7 +74,7 @@ bool shows(float t) {
 vec3 surface_color(Ray ray, Particle particle, Interval hit, bool exit) {
   float t = exit ? hit.t_out : hit.t_in;
   vec3 outward = outward_normal(ray, particle, hit, exit);
-  vec3 normal = exit ? -outward : outward;
+  vec3 normal = inner_end(hit, exit) ? -normalize(ray.direction) : exit ? -outward : outward;
   if (head_light_only) return v_color.rgb + max(-normal.z, 0.0) * v_lit;
   return shade(Surface(ray.origin + t * ray.direction, normal, -normalize(ray.direction)), v_color.rgb, batch.material);
 }
@@ -89,9 +100,12 @@ void main() {
     front = front && !inside;
     back = back && inside;
   }
+  bool absorbs = v_color.a < 0.0; // then inner ends count: what lies between them absorbs
+  front = front && (absorbs || !inner_end(hit, false));
+  back = back && (absorbs || !inner_end(hit, true));
   if (!front && !back) discard;
 
-  float alpha = two_surfaces ? 1.0 - sqrt(max(1.0 - v_color.a, 0.0)) : v_color.a;
+  float alpha = absorbs ? absorbed(ray, hit, -v_color.a, front && back ? 2.0 : 1.0) : two_surfaces ? 1.0 - sqrt(max(1.0 - v_color.a, 0.0)) : v_color.a;
   float a_in = front ? alpha : 0.0, a_out = back ? alpha : 0.0;
   vec3 c_in = surface_color(ray, particle, hit, false), c_out = surface_color(ray, particle, hit, true);
 #ifdef HAS_ALARM
