@@ -46,7 +46,7 @@ inline constexpr std::string_view trace_beyond = "A060";
 struct AppCode {
   std::string_view code{}, line{};
 };
-inline constexpr std::array<AppCode, 30> app_codes{{
+inline constexpr std::array<AppCode, 31> app_codes{{
     {code::command_line, "usage: an unknown option, a missing argument, words that do not fit together"},
     {code::size, "usage: --size is not WIDTHxHEIGHT, each from 1 to 32768"},
     {code::output_ending, "usage: an output file of an ending that cannot be written"},

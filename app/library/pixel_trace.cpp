@@ -261,7 +261,12 @@ private:
   fail(Exit::Failed, code::trace_beyond, {}, fmt::format("pass '{}' draws with {}, which trace-pixel does not follow", pass.name.text, what));
 }
 
-void follow(Following& following, const rg::PassDesc& pass, PixelTrace& out) {
+// What absorbs by the length of the ray's way, or together with its neighbors.
+bool absorbs_otherwise(const Scene& scene, const passes::Selection& selection) {
+  return std::any_of(scene.batches.begin(), scene.batches.end(), [&](const Batch& b) { return selection.draws(b) && (b.density > 0.0 || (b.type == "polyline" && b.alpha < 1.0)); });
+}
+
+void follow(Following& following, const rg::PassDesc& pass, const Scene& scene, PixelTrace& out) {
   Diagnostics ignored; // the graph has been compiled
   rg::Params params(pass.params, pass.draw, pass.name.text, pass.kind.text, pass.loc, ignored);
   if (pass.kind.text == "opaque_impostors") {
@@ -276,7 +281,9 @@ void follow(Following& following, const rg::PassDesc& pass, PixelTrace& out) {
     const passes::DrawStates states = passes::read_states(params, {.depth_write = false, .blend = passes::pack(passes::blend_over())});
     if (states.depth_write || params.has("blend")) cannot(pass, "depth_write or a blend of its own");
     const bool has_depth = std::any_of(pass.inputs.begin(), pass.inputs.end(), [](const rg::InputDesc& i) { return i.slot.text == "depth"; });
-    out.passes.push_back(following.glyphs(pass, passes::read_selection(params, passes::Opacity::Transparent), states,
+    const passes::Selection selection = passes::read_selection(params, passes::Opacity::Transparent);
+    if (absorbs_otherwise(scene, selection)) cannot(pass, "a density or transparent polylines");
+    out.passes.push_back(following.glyphs(pass, selection, states,
                                           {oit == "exact", word_of(pass, "surfaces", "both") == "both", word_of(pass, "order", "back_to_front") == "file", has_depth}));
   }
 }
@@ -296,7 +303,7 @@ PixelTrace trace_pixel(const Job& job, const ReadyGraph& graph, std::uint32_t x,
   for (const rg::PlannedPass& pass : graph.plan.passes) {
     if (pass.kind == "shadow_map" || pass.kind == "ocio_tonemap") continue;
     const auto found = std::find_if(desc.passes.begin(), desc.passes.end(), [&](const rg::PassDesc& p) { return p.name.text == pass.name; });
-    if (found != desc.passes.end() && (pass.kind == "opaque_impostors" || pass.kind == "sorted_glyphs")) follow(following, *found, out);
+    if (found != desc.passes.end() && (pass.kind == "opaque_impostors" || pass.kind == "sorted_glyphs")) follow(following, *found, job.scene, out);
     else out.notes.push_back(fmt::format("pass '{}' ({}) is not followed", pass.name, pass.kind));
   }
   out.linear = following.color();

@@ -148,6 +148,7 @@ TEST_F(TracePixel, WhatItCannotFollow) {
   EXPECT_EQ(weighted.exit, 1);
   EXPECT_THAT(weighted.err, HasSubstr("error A060: pass 'glyphs' draws with oit = \"weighted\""));
   EXPECT_THAT(in_source("trace-pixel app/scenes/course/spheres.toml 80 60 --set opaque.steps=shade").err, HasSubstr("A060"));
+  EXPECT_THAT(in_source("trace-pixel app/scenes/course/glass.toml 80 60 --size 160x120 --set data[0].density=2").err, HasSubstr("A060: pass 'glyphs' draws with a density"));
   const Ran outside = in_source("trace-pixel app/scenes/course/glass.toml 160 60 --size 160x120");
   EXPECT_EQ(outside.exit, 2);
   EXPECT_THAT(outside.err, HasSubstr("'160' is not a column of the picture: 0 to 159"));
