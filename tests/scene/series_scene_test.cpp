@@ -99,6 +99,7 @@ TEST_F(SeriesScene, PlacedAgainIsRealizedAgain) {
     const SceneDesc before = parse_scene(text("", "transform = [ { scale = 2 } ]\n"), "s.toml", folder, {}, diagnostics);
     const SceneDesc after = parse_scene(text("transform = [ { rotate = { axis = [0, 1, 1], angle = 33 } }, { translate = [0.1, 7, 0] } ]\n", ""), "s.toml", folder, {}, diagnostics);
     SceneSource old_source(before), new_source(after);
+    for (SceneSource* source : {&old_source, &new_source}) EXPECT_EQ(source->frame_count(diagnostics), 5u); // as a job asks before it names a frame
     Scene scene = realize(before, {64, 48}, old_source, index, diagnostics);
     const Scene wanted = realize(after, {64, 48}, new_source, index, diagnostics);
     ASSERT_FALSE(diagnostics.has_errors()) << printed();
