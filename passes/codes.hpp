@@ -8,7 +8,7 @@
 
 namespace mote::passes {
 
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 20> pass_codes{{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 21> pass_codes{{
     {"G031", "error: a draw list names a particle type that does not exist"},
     {"P001", "failed: a particle type cannot be drawn by the expansion that was asked for, or the device cannot"},
     {"P002", "failed: a shader that is made at run time does not compile"},
