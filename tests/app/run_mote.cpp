@@ -41,6 +41,26 @@ void CommandTest::write(const std::string& name, const std::string& text) const 
   std::ofstream(folder / name, std::ios::binary) << text;
 }
 
+std::string CommandTest::gallery_without(const std::vector<std::string>& words) const {
+  const std::string scenes = MOTE_SOURCE_DIR "/app/scenes/";
+  std::ifstream file(scenes + "gallery.toml");
+  std::string all((std::istreambuf_iterator<char>(file)), {}), kept;
+  const auto point = [&](const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = all.find(from, at)) != std::string::npos; at += to.size()) all.replace(at, from.size(), to);
+  };
+  point("\"data/", "\"" + scenes + "data/");
+  point("\"gallery_graph", "\"" + scenes + "gallery_graph");
+  point("\"../types", "\"" + scenes + "../types");
+  for (std::size_t at = 0; at < all.size();) {
+    const std::size_t next = std::min(all.find("[[data]]", at + 1), all.size());
+    const std::string part = all.substr(at, next - at);
+    if (at == 0 || std::none_of(words.begin(), words.end(), [&](const std::string& word) { return part.find(word) != std::string::npos; })) kept += part;
+    at = next;
+  }
+  write("gallery.toml", kept);
+  return (folder / "gallery.toml").string();
+}
+
 std::string CommandTest::read(const std::string& name) const {
   std::ifstream file(folder / name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};

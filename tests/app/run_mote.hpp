@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace mote::test {
 
@@ -24,6 +25,8 @@ protected:
   [[nodiscard]] Ran shell(const std::string& command) const; // $MOTE is the program
   void write(const std::string& name, const std::string& text) const;
   [[nodiscard]] std::string read(const std::string& name) const;
+  // The path of the shipped gallery, copied without the data sets whose text has one of the words.
+  [[nodiscard]] std::string gallery_without(const std::vector<std::string>& words) const;
   [[nodiscard]] bool exists(const std::string& name) const { return std::filesystem::exists(folder / name); }
 
   std::filesystem::path folder;

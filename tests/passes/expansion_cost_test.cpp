@@ -189,7 +189,7 @@ TEST(FitCosts, NothingIsNegative) {
 
 // One picture of arrows is not worth the pipelines of their tiles; a window is. Superquadrics cost more everywhere.
 TEST(Choice, TypesHaveCostsOfTheirOwn) {
-  Scene scene = cube_of(100000, 0.08);
+  Scene scene = cube_of(100000, 0.3);
   scene.batches[0].type = "arrow";
   const DeviceCosts costs = shipped_costs(gpu::DeviceType::Cpu);
   const ViewContents arrows = survey(scene, from(60), {});
