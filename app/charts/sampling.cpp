@@ -20,7 +20,7 @@ chart::Chart chart_sampling(TopicContext& context) {
   reference.width = topic.job.size.width;
   reference.height = topic.job.size.height;
   reference.encoding = compare::Encoding::Linear;
-  for (const glm::dvec4& color : render_reference_area(world, topic.view(), reference_side)) reference.color.emplace_back(color);
+  for (const glm::dvec4& color : render_reference_area(world, topic.view(), reference_side, {.shadows = false})) reference.color.emplace_back(color);
   context.say("reference");
   auto add = [&](chart::Series& series, const std::string& parameter, const std::vector<std::string>& settings) {
     const Method method{.settings = settings};

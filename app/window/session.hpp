@@ -166,6 +166,8 @@ private:
   void tell(const Diagnostics& diagnostics);
   void watch_files(const app::GraphRequest* graph = nullptr);
   void picked_at(double x, double y);
+  // Parameters of a pass: `setting` in place of what was said of `path` before; empty: what the graph says.
+  bool set_of_pass(const std::string& path, const std::vector<std::string>& setting);
   void show_step(passes::Step step); // of the first pass that has steps
   [[nodiscard]] std::optional<Picked> describe(std::uint32_t id) const;
   void play(double now);

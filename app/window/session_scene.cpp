@@ -126,9 +126,13 @@ bool Session::take_text(const std::string& changed) {
 bool Session::set(const std::string& path, const std::string& value, bool merge) {
   const std::vector<std::string> setting{path + "=" + value};
   if (app::split_settings(setting).graph.empty()) return change_text(path, [&] { return Document::with(document_.text(), path, value); }, merge);
-  app::JobRequest before = request_; // it is of a pass
+  return set_of_pass(path, setting);
+}
+
+bool Session::set_of_pass(const std::string& path, const std::vector<std::string>& setting) {
+  app::JobRequest before = request_;
   std::erase_if(request_.settings, [&](const std::string& s) { return s.starts_with(path + "="); });
-  request_.settings.push_back(setting[0]);
+  request_.settings.insert(request_.settings.end(), setting.begin(), setting.end());
   if (take_text("graph")) return true;
   request_ = std::move(before);
   return false;
@@ -150,7 +154,10 @@ bool Session::change_text(const std::string& what, const std::function<std::stri
 void Session::show_step(passes::Step step) {
   for (const rg::PlannedPass& pass : painter_.renderer().plan().passes)
     if (pass.kind == "opaque_impostors") {
-      if (set(pass.name + ".steps", "\"" + passes::to_string(step) + "\"")) message("step: " + passes::to_string(step));
+      const std::string path = pass.name + ".steps", word = passes::to_string(step);
+      std::vector<std::string> setting; // the whole thing is what the graph says, smoothed outlines included
+      if (step != passes::Step::Depth) setting.push_back(path + "=\"" + word + "\"");
+      if (set_of_pass(path, setting)) message("step: " + word);
       return;
     }
   message("no pass of this graph has steps");
