@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 using namespace mote;
@@ -141,6 +142,18 @@ TEST(TilePlan, TheSortIsStableAndFrontToBack) {
   for (std::uint32_t i = 0; i < alike.size(); ++i) alike[i].chunk = i;
   sort_by_depth(alike, scratch);
   for (std::uint32_t i = 0; i < alike.size(); ++i) EXPECT_EQ(alike[i].chunk, i);
+}
+
+TEST(TilePlan, SplatsAreForPicturesOfThem) {
+  std::vector<TileChunk> chunks = random_chunks(100, 3);
+  for (std::size_t i = 0; i < 90; ++i) chunks[i].side = 2;
+  choose_splats(chunks);
+  EXPECT_EQ(chunks[0].side, 2u);
+  EXPECT_EQ(plan_tiles(chunks, 1600, 800, 1u << 20).splats, 90u);
+  EXPECT_EQ(reserved_entries(chunks[0]), 0u);
+  chunks[0].side = 0;
+  choose_splats(chunks);
+  EXPECT_TRUE(std::all_of(chunks.begin(), chunks.end(), [](const TileChunk& c) { return c.side == 0; }));
 }
 
 } // namespace

@@ -68,6 +68,12 @@ void sort_by_depth(std::vector<TileChunk>& chunks, std::vector<TileChunk>& scrat
   chunks.swap(scratch);
 }
 
+void choose_splats(std::span<TileChunk> chunks) {
+  const auto splats = static_cast<std::size_t>(std::count_if(chunks.begin(), chunks.end(), [](const TileChunk& c) { return c.side != 0; }));
+  if (splats == 0 || 10 * splats >= 9 * chunks.size()) return;
+  for (TileChunk& chunk : chunks) chunk.side = 0;
+}
+
 TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std::uint32_t height, std::uint32_t most_capacity) {
   TilePlan plan;
   plan.tiles_x = (width + tile_size - 1) / tile_size;

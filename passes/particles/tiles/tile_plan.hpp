@@ -42,6 +42,9 @@ struct TilePlan {
 // Stable, by z_min in 32 steps: front to back, and within a step the order that chunks had. `order` is scratch that is kept between frames.
 void sort_by_depth(std::vector<TileChunk>& chunks, std::vector<TileChunk>& scratch);
 
+// Takes the sides of splats away where fewer than nine in ten chunks have one: both ways in one picture shade it twice.
+void choose_splats(std::span<TileChunk> chunks);
+
 // `chunks` in depth order; `most_capacity`: entries that memory allows in a round.
 TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std::uint32_t height, std::uint32_t most_capacity);
 

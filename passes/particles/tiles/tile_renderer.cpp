@@ -65,6 +65,7 @@ bool TileRenderer::reserve(gpu::Buffer& buffer, std::string_view label, std::uin
 }
 
 void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t height) {
+  choose_splats(view.chunks);
   sort_by_depth(view.chunks, scratch_);
   plan_ = plan_tiles(view.chunks, width, height, most_capacity);
   block_ = {.slices = static_cast<std::uint32_t>(view.slices.size()), .capacity = plan_.capacity, .list_capacity = plan_.list_capacity,
