@@ -29,7 +29,7 @@ constexpr std::array<TypeCosts, 8> measured_types{{{"sphere", 1.0, 1.0, 0.0},
                                                    {"arrow", 1.0, 4.7, 2200.0},
                                                    {"ellipsoid", 1.7, 3.9, 1000.0},
                                                    {"box", 1.25, 2.6, 1400.0},
-                                                   {"superquadric", 8.0, 34.0, 8000.0}}};
+                                                   {"superquadric", 8.0, 34.0, 1500.0}}};
 
 // Numbers of particles, units and pixels that the model multiplies its costs with.
 std::array<double, 4> terms(Expansion expansion, const ViewContents& c) {

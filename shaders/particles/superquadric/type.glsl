@@ -79,6 +79,7 @@ bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
 Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return sampled_outline(intersect(ray, p, again)); }
 
 #ifdef TILES
+#define TILE_LOOP
 Proxy tile_proxy(Particle p) { return proxy(p); }
 
 // Rays start in the plane of the center's depth, so that everything is as small as the particle: with m the direction to the

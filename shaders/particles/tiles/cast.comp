@@ -60,6 +60,29 @@ uvec2 pixel_of(int k) {
   uint who = subgroupShuffle(entry, uint(l)); \
   FOR_PIXELS(TEST_PIXEL) }
 
+#ifdef TILE_LOOP
+// A type whose test is long says so: one copy of it instead of LANES * pixels, which devices would take minutes to compile.
+#define PICK_PIXEL(k) { bool me = pixel == (k); x = me ? ray_x[k] : x; y = me ? ray_y[k] : y; own_key = me ? key[k] : own_key; }
+#define PUT_PIXEL(k) { bool me = nearer && pixel == (k); key[k] = me ? own_key : key[k]; won[k] = me ? who : won[k]; }
+#define TEST_BATCH { \
+  uint l = 0u; \
+  do { \
+    TileTest test = TileTest(subgroupShuffle(mine.a, l), subgroupShuffle(mine.b, l), subgroupShuffle(mine.c, l)); \
+    uint who = subgroupShuffle(entry, l); \
+    int pixel = 0; \
+    do { \
+      float x = 0.0, y = 0.0, own_key = 0.0; \
+      FOR_PIXELS(PICK_PIXEL) \
+      bool nearer = tile_nearer(test, x, y, own_key); \
+      FOR_PIXELS(PUT_PIXEL) \
+      ++pixel; \
+    } while (pixel < pixels); \
+    ++l; \
+  } while (l < uint(LANES)); }
+#else
+#define TEST_BATCH FOR_LANES(TEST_LANE)
+#endif
+
 #define FARTHEST(k) farthest = max(farthest, key[k]);
 // Where no pixel of the tile is open: the farthest depth, from keys (depth times |ray|^2) and the tile's least |ray|^2.
 float farthest_depth(float farthest_key, float least_ray2) {
@@ -126,7 +149,7 @@ void main() {
     } while (at < end && !subgroupAny(alive));
     entry = place_of(entry);
     TileTest mine = tile_test(load_particle(entry), alive);
-    FOR_LANES(TEST_LANE)
+    TEST_BATCH
     float farthest = 0.0;
     FOR_PIXELS(FARTHEST)
     hidden_from = min(hidden_from, farthest_depth(farthest, least_ray2)); // splats may hide more

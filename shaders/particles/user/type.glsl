@@ -39,6 +39,7 @@ bool passes_thin(Ray ray, Particle p, Interval at, float radius) { return p.boun
 Outline outline(Ray ray, Particle p, Interval at) { Interval again; return sampled_outline(intersect(ray, p, again)); }
 
 #ifdef TILES
+#define TILE_LOOP
 Proxy tile_proxy(Particle p) { return proxy(p); }
 
 // Rays start in the plane of the center's depth, as those of the superquadric do.
