@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One pixel followed through everything: every particle whose rectangle covers it from the data set's space to the window, and
 // every fragment in the order of drawing with its depth test and its blending. Computed in double by the reference, not read
-// back from a device, so that it can be checked by hand and is compared with the picture (tests/app/trace_test.cpp).
+// back from a device, so that it can be checked by hand and is compared with the picture (tests/app/course_test.cpp).
 // The sample is the pixel's center. What it can follow: opaque_impostors with any states, sorted_glyphs in an order or exact,
 // shadows; what it cannot is refused (A060) or named in `notes`.
 #pragma once

@@ -55,4 +55,16 @@ std::map<std::string, std::vector<Input>> inputs_by_format(std::size_t most) {
   return out;
 }
 
+std::vector<std::string> reader_names() {
+  std::vector<std::string> out;
+  for (const data::Format& format : data::formats())
+    if (format.name != "hdf5") out.emplace_back(format.name);
+  return out;
+}
+
+std::string word_of(std::string name) {
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 } // namespace mote::fuzz

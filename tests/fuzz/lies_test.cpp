@@ -61,17 +61,7 @@ TEST_P(Lies, EveryPlaceMayHoldAHugeNumber) {
   EXPECT_LT(resident_kib(), 600 << 10);
 }
 
-std::vector<std::string> names() {
-  std::vector<std::string> out;
-  for (const data::Format& format : data::formats())
-    if (format.name != "hdf5") out.emplace_back(format.name); // a library of its own
-  return out;
-}
-INSTANTIATE_TEST_SUITE_P(Readers, Lies, testing::ValuesIn(names()), [](const auto& tested) {
-  std::string name = tested.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Readers, Lies, testing::ValuesIn(reader_names()), [](const auto& tested) { return word_of(tested.param); });
 
 // Two frames of two and one particle, or three, two: every format whose frames state their own counts.
 TEST(DifferingCounts, EachFrameHasItsOwn) {

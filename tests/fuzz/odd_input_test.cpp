@@ -132,17 +132,7 @@ TEST_P(OddInput, NamesNeedNotBeUtf8AndPipesAreRead) {
   fs::remove_all(folder);
 }
 
-std::vector<std::string> names() {
-  std::vector<std::string> out;
-  for (const data::Format& format : data::formats())
-    if (format.name != "hdf5") out.emplace_back(format.name); // a library of its own
-  return out;
-}
-INSTANTIATE_TEST_SUITE_P(Readers, OddInput, testing::ValuesIn(names()), [](const auto& tested) {
-  std::string name = tested.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Readers, OddInput, testing::ValuesIn(reader_names()), [](const auto& tested) { return word_of(tested.param); });
 
 // 2^63 particles and one more than a signed number holds, in the words of each format that states a count.
 TEST(Counts, TwoToThe63IsRefused) {

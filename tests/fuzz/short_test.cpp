@@ -85,17 +85,7 @@ TEST_P(OfFormat, ChangedFilesAreReadOrRefused) {
   }
 }
 
-std::vector<std::string> names() {
-  std::vector<std::string> out;
-  for (const data::Format& format : data::formats())
-    if (format.name != "hdf5") out.emplace_back(format.name);
-  return out;
-}
-INSTANTIATE_TEST_SUITE_P(Readers, OfFormat, testing::ValuesIn(names()), [](const auto& tested) {
-  std::string name = tested.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Readers, OfFormat, testing::ValuesIn(reader_names()), [](const auto& tested) { return word_of(tested.param); });
 
 } // namespace
 } // namespace mote::fuzz

@@ -47,17 +47,7 @@ TEST_P(GlyphTransparency, ExactOrderEqualsTheReference) {
   const View view = look(scene, {1, 2, 10}, {0, 0, 0}, {120, 100});
   const ReferencePicture reference = render_reference(scene, view);
   for (const passes::Expansion expansion : {passes::Expansion::Vertex, passes::Expansion::Geometry}) {
-    const Colors colors = draw_graph(scene, view, R"(schema = 1
-output = "glyphs.color"
-[[pass]]
-name = "opaque"
-kind = "opaque_impostors"
-[[pass]]
-name = "glyphs"
-kind = "sorted_glyphs"
-inputs = { color = "opaque.color", depth = "opaque.depth" }
-params = { oit = "exact" }
-)", "glyphs.color", {.expansion = expansion});
+    const Colors colors = draw_graph(scene, view, exact_glyphs, "glyphs.color", {.expansion = expansion});
     std::size_t sure = 0, wrong = 0, layered = 0;
     for (std::size_t i = 0; i < reference.color.size(); ++i) {
       if (reference.layers_ambiguous[i]) continue;

@@ -18,6 +18,19 @@ struct Colors {
   [[nodiscard]] glm::vec4 center() const { return at(size.width / 2, size.height / 2); }
 };
 
+// Opaque particles, then transparent ones in exact order.
+inline constexpr const char* exact_glyphs = R"(schema = 1
+output = "glyphs.color"
+[[pass]]
+name = "opaque"
+kind = "opaque_impostors"
+[[pass]]
+name = "glyphs"
+kind = "sorted_glyphs"
+inputs = { color = "opaque.color", depth = "opaque.depth" }
+params = { oit = "exact" }
+)";
+
 class GraphTest : public GpuTest {
 protected:
   // `source` must be a color texture of four floats or halves. A graph that does not compile fails the test.

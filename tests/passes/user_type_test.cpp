@@ -193,17 +193,7 @@ TEST_F(UserTypes, ExactTransparencyEqualsTheTwin) {
   for (std::uint32_t i = 0; i < 80 * 60; ++i) rays.push_back(ray_at(view, i % 80, i / 80));
   const auto met = cast(device(), scene, view, rays);
   for (const Expansion e : {Expansion::Vertex, Expansion::Geometry}) {
-    const Colors colors = draw_graph(scene, view, R"(schema = 1
-output = "glyphs.color"
-[[pass]]
-name = "opaque"
-kind = "opaque_impostors"
-[[pass]]
-name = "glyphs"
-kind = "sorted_glyphs"
-inputs = { color = "opaque.color", depth = "opaque.depth" }
-params = { oit = "exact" }
-)", "glyphs.color", {.expansion = e});
+    const Colors colors = draw_graph(scene, view, exact_glyphs, "glyphs.color", {.expansion = e});
     std::size_t off = 0, layered = 0;
     const Batch& batch = scene.batches[0];
     for (std::size_t i = 0; i < met.size(); ++i) {

@@ -100,9 +100,10 @@ void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t he
 // Chunks that are drawn by splats go to a list of their slice and side.
 void TileRenderer::list_splats(const TiledView& view) {
   splats_.assign(view.slices.size() * splat_sides, 0);
+  splats_alone_ = plan_.splats == view.chunks.size() && view.slices.size() == 1;
+  if (plan_.splats == 0) return;
   for (const TileChunk& chunk : view.chunks)
     if (chunk.side != 0) ++splats_[view.draws[chunk.draw].slice * splat_sides + chunk.side - 1u];
-  splats_alone_ = plan_.splats == view.chunks.size() && view.slices.size() == 1;
 }
 
 void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets) {
