@@ -167,7 +167,7 @@ private:
     targets.shadows = shadows_for_tiles();
     targets.cache_directory = cache_directory(context);
     if (surfaces_first_) {
-      targets = {.color = surfaces_->color(), .encoded_depth = targets.encoded_depth, .id = surfaces_->id(), .normal = surfaces_->normal_t()};
+      targets = surface_targets(targets.encoded_depth);
     } else if (const auto next = draw_on || offsets_.size() > 1 ? std::nullopt : context.successor("color"); next && TileRenderer::works(context.device(), next->target.format())) {
       targets.map = next->map;
       targets.color = next->target;
@@ -176,6 +176,9 @@ private:
     tiled_.record(context.encoder(), frame_group_, targets, [&](std::string_view stage) { context.mark(stage); });
   }
 
+  [[nodiscard]] TileTargets surface_targets(const gpu::Texture& encoded_depth) const {
+    return {.color = surfaces_->color(), .encoded_depth = encoded_depth, .id = surfaces_->id(), .normal = surfaces_->normal_t()};
+  }
   [[nodiscard]] const TileShadows* shadows_for_tiles() const { return deferred_ && !surfaces_first_ ? tile_shadows_.get() : nullptr; }
   static std::string cache_directory(const rg::PassContext& context) {
     const DisplaySettings* display = context.frame().find<DisplaySettings>();
@@ -272,6 +275,7 @@ private:
   }
 
   void update_surfaces(rg::PassContext& context, std::unique_ptr<SurfaceShading>& surfaces, bool edges) {
+    draw_textures(lights_, context.encoder(), [&](std::string_view stage) { context.mark(stage); });
     if (!surfaces) surfaces = std::make_unique<SurfaceShading>(context.device(), pipelines_->frame_layout(), edges);
     surfaces->update(context.frame().get<Scene>(), context.frame().get<View>(), lights_);
   }
@@ -279,10 +283,9 @@ private:
   // Depth and AOVs are those of the pixel's center, from a picture of their own, if anybody looks at them.
   void record_center(rg::PassContext& context, bool tiled) {
     if (aovs_ == 0 && !context.kept("depth")) return;
-    if (tiled)
-      record_tiles(context);
-    else
-      draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_first_ ? surfaces_.get() : nullptr);
+    if (tiled) record_tiles(context);
+    if (!tiled || surfaces_first_)
+      draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_first_ ? surfaces_.get() : nullptr, tiled);
   }
 
   // AOVs are those of the whole thing, from a picture of their own.
@@ -317,12 +320,13 @@ private:
       if (i == sample_frames_.size()) sample_frames_.push_back(make_frame(device));
       const FrameBlock block = frame_block(scene, view);
       device.queue().write_buffer(sample_frames_[i].first, 0, std::as_bytes(std::span(&block, 1)));
-      if (tiled)
-        tiled_.record(context.encoder(), sample_frames_[i].second,
-                      {.color = accumulator_->texture(), .background = picture.clear.front(), .shadows = shadows_for_tiles(), .cache_directory = cache_directory(context)},
-                      [&](std::string_view stage) { context.mark(stage); });
-      else
-        draw_picture(context, sample_frames_[i].second, picture, 0, accumulator_->depth(), surfaces_first_ ? surfaces_.get() : nullptr);
+      if (tiled) {
+        TileTargets targets{.color = accumulator_->texture(), .background = picture.clear.front(), .shadows = shadows_for_tiles(), .cache_directory = cache_directory(context)};
+        if (surfaces_first_) targets = surface_targets({});
+        tiled_.record(context.encoder(), sample_frames_[i].second, targets, [&](std::string_view stage) { context.mark(stage); });
+      }
+      if (!tiled || surfaces_first_)
+        draw_picture(context, sample_frames_[i].second, picture, 0, accumulator_->depth(), surfaces_first_ ? surfaces_.get() : nullptr, tiled);
       accumulator_->add(context.encoder(), i == 0);
     }
     accumulator_->resolve(context.encoder(), color);

@@ -10,6 +10,7 @@
 #include "passes/particles/quad_indices.hpp"
 #include "passes/particles/selection.hpp"
 #include "passes/particles/tiles/tiled_drawing.hpp"
+#include "passes/scratch.hpp"
 #include "passes/shadows/light_view.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ namespace {
 
 using gpu::TextureFormat;
 
-class ShadowMap final : public rg::Pass {
+class ShadowMap final : public rg::Pass, public MapInBuffers {
 public:
   void declare(std::vector<rg::Slot>& slots, rg::Params& params) override {
     light_ = params.string("light", "", "name of the light; empty: the first one that casts shadows");
@@ -62,7 +63,7 @@ public:
     const gpu::Texture map = context.whole_texture("map");
     const std::size_t light = checked_light(scene);
     placed_ = {};
-    tiled_ = false;
+    tiled_ = stays_ = false;
     const std::optional<View> view = light < scene.lights.size()
         ? light_view(scene.bounds, context.frame().get<View>(), scene.lights[light], {map.size().width, map.size().height})
         : std::nullopt;
@@ -72,15 +73,31 @@ public:
       info_.types.clear();
       for (const Batch& batch : scene.batches)
         if (selection_.draws(batch) && std::find(info_.types.begin(), info_.types.end(), batch.type) == info_.types.end()) info_.types.push_back(batch.type);
-      store.shadow_maps().publish(map, info_);
       place(context, scene, store, map);
+      stays_ = stays_in_buffers(context);
+      store.shadow_maps().publish(map, info_, stays_ ? this : nullptr);
     } else {
       store.shadow_maps().withdraw(map);
     }
     draw(context, map);
   }
 
+  [[nodiscard]] Buffers buffers() const override { return tiles_.casters(); }
+
+  gpu::Texture draw_texture(gpu::CommandEncoder& encoder, const Mark& mark) override {
+    const Size2d size = info_.view.size;
+    make_scratch(device_, whole_, "shadow.map", {size.width, size.height, 1 + most_payload_vec4s}, TextureFormat::RGBA32Uint);
+    tiles_.record(encoder, frame_group_, {.casters = whole_}, mark);
+    return whole_;
+  }
+
 private:
+  // Whether the map may stay in the tiles' buffers: they hold all of it, and nobody reads it who does not ask for them.
+  [[nodiscard]] bool stays_in_buffers(const rg::PassContext& context) const {
+    const bool spheres = std::all_of(info_.types.begin(), info_.types.end(), [](const std::string& type) { return type == "sphere"; });
+    return ids_ && tiled_ && spheres && placed_.draws.empty() && !context.kept("depth") && context.only_sampled_by("map", "opaque_impostors");
+  }
+
   // scene.lights.size(): there is none.
   [[nodiscard]] std::size_t find_light(const Scene& scene) const {
     const auto found = std::find_if(scene.lights.begin(), scene.lights.end(),
@@ -110,6 +127,7 @@ private:
 
   void place(rg::PassContext& context, const Scene& scene, const ParticleStore& store, const gpu::Texture& map) {
     gpu::Device device = context.device();
+    device_ = device;
     if (!pipelines_) {
       pipelines_ = std::make_unique<ParticlePipelines>(device, store.layout());
       frame_buffer_ = device.create_buffer({.label = "shadow.frame", .size = sizeof(FrameBlock),
@@ -147,7 +165,7 @@ private:
   }
 
   void record_tiles(rg::PassContext& context, const gpu::Texture& map) {
-    TileTargets targets{.casters = ids_ ? map : gpu::Texture()};
+    TileTargets targets{.casters = ids_ && !stays_ ? map : gpu::Texture(), .casters_stay = stays_};
     if (!ids_) targets.encoded_depth = map;
     else if (!placed_.draws.empty() || context.kept("depth")) targets.encoded_depth = context.whole_texture("depth");
     tiles_.record(context.encoder(), frame_group_, targets, [&](std::string_view stage) { context.mark(stage); });
@@ -206,7 +224,9 @@ private:
   QuadIndices indices_;
   PlacedView placed_;
   TiledDrawing tiles_;
-  bool tiled_{}; // in this frame
+  bool tiled_{}, stays_{}; // in this frame
+  gpu::Device device_;
+  gpu::Texture whole_; // a map that stayed in buffers and was then asked for as a texture
   ExpansionChooser chooser_;
 };
 

@@ -66,6 +66,9 @@ public:
   void take_over(std::string_view slot) override {
     if (successor_use(executor_.plan_, pass_, slot)) executor_.taken_over_[pass_ + 1] = planned_.name;
   }
+  [[nodiscard]] bool only_sampled_by(std::string_view slot, std::string_view kind) const override {
+    return rg::only_sampled_by(executor_.plan_, pass_, slot, kind);
+  }
   [[nodiscard]] bool kept(std::string_view slot) const override {
     const auto use = find(slot, true);
     return use && at(*use).store == gpu::StoreOp::Store;

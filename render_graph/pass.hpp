@@ -99,6 +99,8 @@ public:
   // output calls take_over(), which leaves the successor out of this frame.
   [[nodiscard]] virtual std::optional<Successor> successor(std::string_view slot) = 0;
   virtual void take_over(std::string_view slot) = 0;
+  // Is this output read, and by passes of this kind only, as a texture to sample? Then nothing else ever looks at it.
+  [[nodiscard]] virtual bool only_sampled_by(std::string_view slot, std::string_view kind) const = 0;
   // Does anything read this output after the pass?
   [[nodiscard]] virtual bool kept(std::string_view slot) const = 0;
 };

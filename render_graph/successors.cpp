@@ -34,4 +34,18 @@ std::optional<std::size_t> successor_use(const Plan& plan, std::size_t pass, std
   return out;
 }
 
+bool only_sampled_by(const Plan& plan, std::size_t pass, std::string_view slot, std::string_view kind) {
+  const auto& uses = plan.passes[pass].uses;
+  const auto made = std::find_if(uses.begin(), uses.end(), [&](const Use& use) { return use.slot == slot && !use.buffer && writes(use.access); });
+  if (made == uses.end() || !made->source.empty() || made->state || is_root(plan, made->resource)) return false;
+  bool read = false;
+  for (std::size_t i = 0; i < plan.passes.size(); ++i)
+    for (const Use& use : plan.passes[i].uses) {
+      if (i == pass || use.buffer || use.resource != made->resource) continue;
+      if (use.access != Access::Sampled || plan.passes[i].kind != kind) return false;
+      read = true;
+    }
+  return read;
+}
+
 } // namespace mote::rg

@@ -15,4 +15,7 @@ namespace mote::rg {
 // The use through which pass `pass + 1` writes what it makes from the output `slot` of `pass`, or nothing.
 std::optional<std::size_t> successor_use(const Plan& plan, std::size_t pass, std::string_view slot);
 
+// Whether passes of `kind` sample the output `slot` of `pass`, and nothing else touches it.
+bool only_sampled_by(const Plan& plan, std::size_t pass, std::string_view slot, std::string_view kind);
+
 } // namespace mote::rg

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace mote::passes {
 
@@ -28,8 +29,13 @@ std::vector<MappedLight> ShadowInputs::lights(const rg::PassContext& context) co
   std::vector<MappedLight> out;
   for (const std::string& slot : slots_)
     if (const gpu::Texture map = context.connected(slot) ? context.whole_texture(slot) : gpu::Texture())
-      if (const ShadowMapInfo* info = maps.find(map)) out.push_back({map, *info});
+      if (const ShadowMapInfo* info = maps.find(map)) out.push_back({map, *info, maps.in_buffers(map)});
   return out;
+}
+
+void draw_textures(std::vector<MappedLight>& lights, gpu::CommandEncoder& encoder, const MapInBuffers::Mark& mark) {
+  for (MappedLight& light : lights)
+    if (light.buffers) light.map = std::exchange(light.buffers, nullptr)->draw_texture(encoder, mark);
 }
 
 } // namespace mote::passes

@@ -21,4 +21,7 @@ private:
   std::vector<std::string> slots_{};
 };
 
+// Draws the maps that are in buffers as textures, for who reads those.
+void draw_textures(std::vector<MappedLight>& lights, gpu::CommandEncoder& encoder, const MapInBuffers::Mark& mark);
+
 } // namespace mote::passes

@@ -9,14 +9,15 @@ std::uint32_t ShadowMaps::number_of(const gpu::Texture& map) {
   std::size_t free = 0;
   while (free < entries_.size() && !entries_[free].texture.expired()) ++free;
   if (free == entries_.size()) entries_.emplace_back();
-  entries_[free] = {map.impl(), false, {}};
+  entries_[free] = {.texture = map.impl()};
   return static_cast<std::uint32_t>(free);
 }
 
-void ShadowMaps::publish(const gpu::Texture& map, const ShadowMapInfo& info) {
+void ShadowMaps::publish(const gpu::Texture& map, const ShadowMapInfo& info, MapInBuffers* buffers) {
   Entry& entry = entries_[number_of(map)];
   entry.info = info;
   entry.valid = true;
+  entry.buffers = buffers;
 }
 
 void ShadowMaps::withdraw(const gpu::Texture& map) { entries_[number_of(map)].valid = false; }
@@ -24,6 +25,12 @@ void ShadowMaps::withdraw(const gpu::Texture& map) { entries_[number_of(map)].va
 const ShadowMapInfo* ShadowMaps::find(const gpu::Texture& map) const {
   for (const Entry& entry : entries_)
     if (entry.valid && entry.texture.lock() == map.impl()) return &entry.info;
+  return nullptr;
+}
+
+MapInBuffers* ShadowMaps::in_buffers(const gpu::Texture& map) const {
+  for (const Entry& entry : entries_)
+    if (entry.valid && entry.texture.lock() == map.impl()) return entry.buffers;
   return nullptr;
 }
 

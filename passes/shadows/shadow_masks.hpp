@@ -21,6 +21,7 @@ namespace mote::passes {
 struct MappedLight {
   gpu::Texture map{};
   ShadowMapInfo info{};
+  MapInBuffers* buffers{}; // null: it is in the texture
 };
 
 // How a light's space follows from the camera's; std140, as in shaders/shadow/receiver.glsl and lit.glsl.

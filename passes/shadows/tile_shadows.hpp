@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shadow maps as the tiles' cast kernel asks them when it shades at once what it has cast: bindings and constants of
-// shaders/shadow/lit.glsl. What that cannot hold (maps of method `depth` or of casters that are no spheres, more than four) is shaded later, by SurfaceShading.
+// shaders/shadow/lit.glsl. What that cannot hold (maps that are not in buffers: of method `depth`, drawn by quads, of casters
+// that are no spheres; more than four) is shaded later, by SurfaceShading.
 #pragma once
 
 #include "core/gpu/gpu.hpp"
@@ -36,9 +37,7 @@ private:
   gpu::Device device_;
   Key key_;
   gpu::BindGroupLayout layout_;
-  gpu::Buffer blocks_;
-  gpu::Texture none_;                   // where a scene has fewer maps
-  std::array<gpu::Texture, most_maps> bound_;
+  gpu::Buffer blocks_, none_; // none_: where a scene has fewer maps
   gpu::BindGroup group_;
 };
 

@@ -9,6 +9,12 @@
 #define LIGHT_VISIBILITY(i) 1.0
 #endif
 
+// Light i of the frame and its ambient light; an includer that has taken them into variables says so.
+#ifndef FRAME_LIGHT
+#define FRAME_LIGHT(i) frame.lights[i]
+#define FRAME_AMBIENT frame.ambient.rgb
+#endif
+
 struct Surface {
   vec3 position; // view space
   vec3 normal;   // unit, turned to the eye
@@ -19,7 +25,7 @@ struct Surface {
 float power(float x, float e) { return e == 0.0 ? 1.0 : pow(max(x, 1e-30), e); }
 
 void light_at(int i, vec3 position, out vec3 to_light, out float strength) {
-  Light light = frame.lights[i];
+  Light light = FRAME_LIGHT(i);
   to_light = light.position.xyz;
   strength = 1.0;
   if (local_lights) {
@@ -34,13 +40,13 @@ void light_at(int i, vec3 position, out vec3 to_light, out float strength) {
 
 // material: ambient, diffuse, specular, exponent.
 vec3 shade(Surface at, vec3 color, vec4 material) {
-  vec3 diffuse = material.x * frame.ambient.rgb;
+  vec3 diffuse = material.x * FRAME_AMBIENT;
   vec3 specular = vec3(0.0);
   for (int i = 0; i < light_count; ++i) {
     vec3 to_light;
     float strength;
     light_at(i, at.position, to_light, strength);
-    vec3 light = frame.lights[i].strength.rgb * (strength * LIGHT_VISIBILITY(i));
+    vec3 light = FRAME_LIGHT(i).strength.rgb * (strength * LIGHT_VISIBILITY(i));
     float cosine = dot(at.normal, to_light);
     diffuse += material.y * max(cosine, 0.0) * light;
     if (specular_model != 0) {

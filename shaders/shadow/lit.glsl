@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // How much of each mapped light reaches a point of a surface, for a kernel that shades at once what it has cast: up to
-// most_shadow_maps maps of method `ids`, asked as shadow/mask_ids.frag asks them. Mirrors passes/shadows/tile_shadows.hpp.
-// The includer defines SHADOW_SET, the number of this set.
+// most_shadow_maps maps of spheres that tiles have left in buffers, asked as shadow/mask_ids.frag asks them.
+// Mirrors passes/shadows/tile_shadows.hpp. The includer defines SHADOW_SET, the number of this set.
 #ifndef MOTE_LIT_GLSL
 #define MOTE_LIT_GLSL
 
-#extension GL_EXT_samplerless_texture_functions : require
 #include "shadow/casters.glsl"
 
 const int most_shadow_maps = 4;
@@ -20,54 +19,87 @@ struct ShadowBlock { // as in shadow/receiver.glsl
   vec4 light_from_view0, light_from_view1, light_from_view2, offset, map, bias;
 };
 layout(std140, set = SHADOW_SET, binding = 0) uniform ShadowBlocks { ShadowBlock blocks[most_shadow_maps]; } shadows;
-layout(set = SHADOW_SET, binding = 1) uniform utexture2DArray casters0;
-layout(set = SHADOW_SET, binding = 2) uniform utexture2DArray casters1;
-layout(set = SHADOW_SET, binding = 3) uniform utexture2DArray casters2;
-layout(set = SHADOW_SET, binding = 4) uniform utexture2DArray casters3;
 
 // A light's map, taken from the uniform block once.
 struct LightMap {
   mat3 light_from_view;
   vec3 offset;
   vec3 map; // width, height, focal
+  vec4 to;  // the light in the camera's view space, as Light::position
 };
-LightMap take_map(int k) {
+LightMap take_map(int k, int light) {
   ShadowBlock block = shadows.blocks[k];
-  return LightMap(mat3(block.light_from_view0.xyz, block.light_from_view1.xyz, block.light_from_view2.xyz), block.offset.xyz, block.map.xyz);
+  return LightMap(mat3(block.light_from_view0.xyz, block.light_from_view1.xyz, block.light_from_view2.xyz), block.offset.xyz, block.map.xyz,
+                  frame.lights[max(light, 0)].position);
 }
+// Does a surface face the light? What does not is dark, whatever the map says.
+bool faces(LightMap light, vec3 position, vec3 normal) { return dot(normal, light.to.xyz - position * light.to.w) > 0.0; }
 
-bool blocked_by(uint id, vec4 caster, uint own, vec3 p, vec3 to_light, float reach) {
-  return id != 0xFFFFFFFFu && id != own && sphere_blocks(p, to_light, reach, caster);
+// A point of view space as the light sees it: p in the light's view space, and where that lies on the map, in texels.
+vec2 place_on(LightMap light, bool parallel, vec3 position, out vec3 p) {
+  p = light.light_from_view * position + light.offset;
+  return (parallel ? p.xy : p.xy / p.z) * light.map.z + 0.5 * light.map.xy;
 }
+bool is_on(LightMap light, vec2 place, vec3 p) { return all(greaterThan(place, vec2(0.0))) && all(lessThan(place, light.map.xy)) && p.z > 0.0; }
 
-// 1: the light reaches the point `position` of particle `id` (view space), 0: something stands between.
-float light_past(LightMap light, utexture2DArray casters, bool parallel, uint id, vec3 position) {
-  vec3 p = light.light_from_view * position + light.offset;
-  vec2 place = (parallel ? p.xy : p.xy / p.z) * light.map.z + 0.5 * light.map.xy;
-  bool on_map = all(greaterThan(place, vec2(0.0))) && all(lessThan(place, light.map.xy)) && p.z > 0.0;
-  float reach = parallel ? 1e38 : length(p);
-  vec3 to_light = parallel ? vec3(0.0, 0.0, -1.0) : -p / max(reach, 1e-30);
-  ivec2 last = ivec2(light.map.xy) - 1;
-  ivec2 first = ivec2(floor(clamp(place, vec2(-1.0), light.map.xy + 1.0) - 0.5));
-  bool blocked = false;
-  int k = 0;
-  do {
-    ivec2 texel = clamp(first + ivec2(k & 1, k >> 1), ivec2(0), last);
-    blocked = blocked || blocked_by(texelFetch(casters, ivec3(texel, 1), 0).r, uintBitsToFloat(texelFetch(casters, ivec3(texel, 0), 0)), id, p, to_light, reach);
-  } while (++k < 4);
-  return blocked && on_map ? 0.0 : 1.0;
+layout(std430, set = SHADOW_SET, binding = 1) readonly buffer Casters0 { PAIR casters0[]; };
+layout(std430, set = SHADOW_SET, binding = 2) readonly buffer Casters1 { PAIR casters1[]; };
+layout(std430, set = SHADOW_SET, binding = 3) readonly buffer Casters2 { PAIR casters2[]; };
+layout(std430, set = SHADOW_SET, binding = 4) readonly buffer Casters3 { PAIR casters3[]; };
+layout(std430, set = SHADOW_SET, binding = 5) readonly buffer CasterIds0 { uint caster_ids0[]; };
+layout(std430, set = SHADOW_SET, binding = 6) readonly buffer CasterIds1 { uint caster_ids1[]; };
+layout(std430, set = SHADOW_SET, binding = 7) readonly buffer CasterIds2 { uint caster_ids2[]; };
+layout(std430, set = SHADOW_SET, binding = 8) readonly buffer CasterIds3 { uint caster_ids3[]; };
+
+// The 2x2 texels around a point of a surface, and its ray to the light.
+struct Question {
+  uvec4 texels;
+  vec3 p, to_light; // the light's view space
+  float reach;
+  bool asked;
+};
+Question question_of(LightMap light, bool parallel, vec3 position) {
+  Question q;
+  vec2 place = place_on(light, parallel, position, q.p);
+  q.asked = is_on(light, place, q.p);
+  q.reach = parallel ? 1e38 : length(q.p);
+  q.to_light = parallel ? vec3(0.0, 0.0, -1.0) : -q.p / max(q.reach, 1e-30);
+  vec2 last = light.map.xy - 1.0;
+  uvec2 lo = uvec2(clamp(floor(place - 0.5), vec2(0.0), last)), hi = uvec2(clamp(floor(place - 0.5) + 1.0, vec2(0.0), last));
+  uint width = uint(light.map.x);
+  q.texels = uvec4(lo.y * width + lo.x, lo.y * width + hi.x, hi.y * width + lo.x, hi.y * width + hi.x);
+  return q;
 }
+// Whose casters have not been tried: bits. The same caster in several texels is tried once.
+uint others_than(uvec4 ids, uint id, uint open) {
+  return open & ~((ids.x == id ? 1u : 0u) | (ids.y == id ? 2u : 0u) | (ids.z == id ? 4u : 0u) | (ids.w == id ? 8u : 0u));
+}
+#define ASK_MAP(casters, caster_ids, light, parallel, position, own, facing, blocked) { \
+  Question q = question_of(light, parallel, position); \
+  bool asked = q.asked && (facing); \
+  uvec4 ids = uvec4(no_particle); \
+  if (asked) ids = uvec4(caster_ids[q.texels.x], caster_ids[q.texels.y], caster_ids[q.texels.z], caster_ids[q.texels.w]); \
+  uint open = others_than(ids, own, others_than(ids, no_particle, 15u)); \
+  do { \
+    int k = findLSB(open); \
+    uint texel = k <= 0 ? q.texels.x : k == 1 ? q.texels.y : k == 2 ? q.texels.z : q.texels.w; \
+    uint id = k <= 0 ? ids.x : k == 1 ? ids.y : k == 2 ? ids.z : ids.w; \
+    vec4 caster = vec4(0.0); \
+    if (open != 0u) caster = uintBitsToFloat(uvec4(words(casters[2u * texel]), words(casters[2u * texel + 1u]))); \
+    blocked = blocked || (open != 0u && sphere_blocks(q.p, q.to_light, q.reach, caster)); \
+    open = blocked ? 0u : others_than(ids, id, open); \
+  } while (subgroupAny(open != 0u)); }
 
-struct Lit { float map0, map1, map2, map3; };
-Lit all_lit() { return Lit(1.0, 1.0, 1.0, 1.0); }
+struct Lit { bool blocked0, blocked1, blocked2, blocked3; };
+Lit all_lit() { return Lit(false, false, false, false); }
 // Of light i of the frame.
 float lit_by(Lit lit, int i) {
-  float seen = 1.0;
-  if (shadow_maps > 0) seen = i == light_of_map0 ? lit.map0 : seen;
-  if (shadow_maps > 1) seen = i == light_of_map1 ? lit.map1 : seen;
-  if (shadow_maps > 2) seen = i == light_of_map2 ? lit.map2 : seen;
-  if (shadow_maps > 3) seen = i == light_of_map3 ? lit.map3 : seen;
-  return seen;
+  bool blocked = false;
+  if (shadow_maps > 0) blocked = blocked || (i == light_of_map0 && lit.blocked0);
+  if (shadow_maps > 1) blocked = blocked || (i == light_of_map1 && lit.blocked1);
+  if (shadow_maps > 2) blocked = blocked || (i == light_of_map2 && lit.blocked2);
+  if (shadow_maps > 3) blocked = blocked || (i == light_of_map3 && lit.blocked3);
+  return blocked ? 0.0 : 1.0;
 }
 
 #endif

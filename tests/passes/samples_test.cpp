@@ -261,11 +261,14 @@ TEST_P(Samples, WithShadows) {
   Scene scene = scene_of({{0, 0, 0, 2}, {0, 5, 0, 0.5}});
   scene.lights = {{.name = "sun", .kind = LightKind::Directional, .direction = {0, -1, 0}, .intensity = 0.8, .shadows = true}};
   const View camera = look(scene, {0, 12, 12}, {0, 2, 0}, {120, 120});
-  const Picture p = draw(scene, camera, {}, {"opaque.samples=16"});
   const auto area = render_reference_area(reference::build_world(scene), camera, 16);
-  double sum = 0;
-  for (std::size_t i = 0; i < area.size(); ++i) sum += std::pow(p.color[i].g - area[i].g, 2);
-  EXPECT_LE(std::sqrt(sum / static_cast<double>(area.size())), 0.006);
+  for (const std::string method : {"ids", "depth"}) {
+    const Picture p = draw(scene, camera, {}, {"opaque.samples=16", "shadow.size=2048", "shadow.method=\"" + method + "\""});
+    double sum = 0;
+    for (std::size_t i = 0; i < area.size(); ++i) sum += std::pow(p.color[i].g - area[i].g, 2);
+    EXPECT_LE(std::sqrt(sum / static_cast<double>(area.size())), method == "ids" ? 0.006 : 0.012) << method;
+    EXPECT_EQ(p.id[p.at(60, 75)], 0u) << method << ": AOVs are those of the centers";
+  }
 }
 
 } // namespace

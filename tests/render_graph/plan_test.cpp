@@ -2,6 +2,7 @@
 #include "fake_kinds.hpp"
 #include "goldens.hpp"
 #include "render_graph/lifetimes.hpp"
+#include "render_graph/successors.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -42,6 +43,21 @@ const std::string head = "schema = 1\noutput = 'display.color'\n";
 std::string display(const std::string& source) { return "[[pass]]\nname = 'display'\nkind = 'ocio_tonemap'\ninputs = { color = '" + source + "' }\n"; }
 std::string blur(const std::string& name, const std::string& source) {
   return "[[pass]]\nname = '" + name + "'\nkind = 'blur'\ninputs = { source = '" + source + "' }\nparams = { radius = 2 }\n";
+}
+
+// An output may stay where its one kind of readers looks for it only if nobody else does.
+TEST(Readers, OfOneKind) {
+  const std::string shadow = "[[pass]]\nname = 'shadow'\nkind = 'shadow_map'\n", lit = opaque + "inputs = { shadow = 'shadow.depth' }\n";
+  const auto only = [](const std::string& toml, std::string_view kind) {
+    const Plan plan = plan_of(toml);
+    const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(), [](const PlannedPass& p) { return p.name == "shadow"; });
+    return only_sampled_by(plan, static_cast<std::size_t>(pass - plan.passes.begin()), "depth", kind);
+  };
+  EXPECT_TRUE(only(head + shadow + lit + display("opaque.color"), "opaque_impostors"));
+  EXPECT_FALSE(only(head + shadow + lit + display("opaque.color"), "blur"));
+  const std::string second = "[[pass]]\nname = 'glyphs'\nkind = 'sorted_glyphs'\ninputs = { color = 'opaque.color', depth = 'opaque.depth', shadow = 'shadow.depth' }\n";
+  EXPECT_FALSE(only(head + shadow + lit + second + display("glyphs.color"), "opaque_impostors")) << "another kind reads it, too";
+  EXPECT_FALSE(only("schema = 1\noutput = 'shadow.depth'\n" + shadow, "opaque_impostors")) << "it is the picture";
 }
 
 class GoodGraph : public testing::TestWithParam<std::string> {};

@@ -50,6 +50,8 @@ ParticlePipelineKey drawing_of(ParticlePipelineKey key, const TileTargets& targe
   return key;
 }
 
+bool has_casters(const TileTargets& targets) { return targets.casters || targets.casters_stay; }
+
 } // namespace
 
 bool TileRenderer::works(const gpu::Device& device, gpu::TextureFormat color) { return TileKernels::lanes(device) != 0 && words_of(color) != 0; }
@@ -116,7 +118,7 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.indirect, "tiles.indirect", arguments_.size() * 4, Usage::Indirect | Usage::CopyDst);
   reserve(b.payloads, "tiles.payloads", places * payload, storage);
   reserve(b.colors, "tiles.colors", places * 8, storage);
-  reserve(b.ids, "tiles.ids", targets.id || targets.casters || targets.shadows ? places * 4 : 0, storage);
+  reserve(b.ids, "tiles.ids", targets.id || has_casters(targets) || targets.shadows ? places * 4 : 0, storage);
   // Counts are left at zero by the casts before, unless they are counted elsewhere now: in a picture of another size.
   tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 12ull, storage) || tiles_of_ != plan_.level1 || tiles_fresh_;
   tiles_of_ = plan_.level1;
@@ -126,12 +128,12 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.nearest, "tiles.nearest", pixels * 4, storage);
   reserve(b.splats, "tiles.splats", plan_.splats != 0 ? pixels * 8 : 0, storage);
   reserve(b.splat_lists, "tiles.splat_lists", plan_.splats * 4ull, storage);
-  reserve(b.color, "tiles.color", pixels * color_words_ * 4, storage);
+  reserve(b.color, "tiles.color", targets.casters_stay ? 0 : pixels * color_words_ * 4, storage);
   reserve(b.unused_color, "tiles.unused_color", 0, storage);
   reserve(b.encoded, "tiles.encoded_depth", targets.encoded_depth ? pixels * 4 : 0, storage);
   reserve(b.depth, "tiles.depth", targets.depth ? pixels * 4 : 0, storage);
-  reserve(b.id, "tiles.id", targets.id ? pixels * 4 : 0, storage);
-  reserve(b.normal, "tiles.normal", targets.normal || targets.casters ? pixels * 16 : 0, storage);
+  reserve(b.id, "tiles.id", targets.id || targets.casters_stay ? pixels * 4 : 0, storage);
+  reserve(b.normal, "tiles.normal", targets.normal || has_casters(targets) ? pixels * 16 : 0, storage);
 }
 
 void TileRenderer::make_groups(const TiledView& view) {
@@ -173,6 +175,7 @@ void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& target
   if (targets.depth) encoder.clear_buffer(b.depth, 0, 0, infinity_bits);
   if (targets.id) encoder.clear_buffer(b.id, 0, 0, 0xFFFFFFFFu);
   if (targets.normal) encoder.clear_buffer(b.normal);
+  if (targets.casters_stay) encoder.clear_buffer(b.id, 0, 0, no_caster);
   if (targets.casters) {
     encoder.clear_buffer(b.normal, 0, 0, no_caster);
     encoder.clear_buffer(b.color, 0, 0, no_caster);
@@ -200,7 +203,7 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
                                const TileTargets& targets, const Mark& mark) {
   const TileStep& step = plan_.steps[index];
   ParticlePipelineKey placed = key.drawing;
-  if (targets.shadows || targets.casters) placed.aovs |= aov_id_bit; // no particle shadows itself
+  if (targets.shadows || has_casters(targets)) placed.aovs |= aov_id_bit; // no particle shadows itself
   const auto slices = static_cast<std::uint32_t>(view.slices.size());
   StepBlock block = block_;
   block.first = step.first;
@@ -335,7 +338,7 @@ void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& tar
 
 void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& drawing,
                           const TileTargets& targets, const Mark& mark) {
-  color_words_ = targets.color ? words_of(targets.color.format()) : targets.casters ? 4 : 0;
+  color_words_ = targets.color ? words_of(targets.color.format()) : targets.casters ? 4 : targets.casters_stay ? 1 : 0;
   const CastKey key{.drawing = drawing_of(drawing, targets), .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
               .display_only = color_words_ == 1 && !targets.depth && !targets.id && !targets.normal && !targets.encoded_depth && drawing.phase == Phase::Opaque,
               .color_words = color_words_,

@@ -23,6 +23,7 @@ namespace mote::passes {
 struct TileTargets {
   gpu::Texture color{}, encoded_depth{}, depth{}, id{}, normal{};
   gpu::Texture casters{};          // as shadows/shadow_maps.hpp says: payloads and ids, a layer each
+  bool casters_stay{};             // instead, they are left in casters()
   gpu::Color background{};         // scene-linear
   const rg::PixelMap* map{};       // applied to colors and background; `color` is then what the map's pass would write
   const TileShadows* shadows{};    // of lights; null: no light has a map
@@ -42,6 +43,9 @@ public:
   using Mark = std::function<void(std::string_view stage)>;
   void record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& key,
               const TileTargets& targets, const Mark& mark);
+
+  // With casters_stay, until the next record().
+  [[nodiscard]] MapInBuffers::Buffers casters() const { return {buffers_.normal, buffers_.id}; }
 
 private:
   struct Buffers {

@@ -35,6 +35,7 @@ public:
   // False: nothing in view is for tiles; rest() then holds everything.
   bool place(gpu::Device device, const ParticleStore& store, const gpu::BindGroupLayout& frame, const TileWish& wish);
   void record(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const TileTargets& targets, const TileRenderer::Mark& mark);
+  [[nodiscard]] MapInBuffers::Buffers casters() const { return tiles_->casters(); } // as TileRenderer says
   [[nodiscard]] const PlacedView& rest() const { return tiled_.rest; }
   [[nodiscard]] std::size_t chunks() const { return tiled_.chunks.size(); }
 

@@ -9,6 +9,16 @@
 Lit lit = all_lit(); // at the surface that is being shaded
 #define LIGHT_VISIBILITY(i) lit_by(lit, i)
 #endif
+// A CPU device gathers uniform values lane by lane at every use: what every pixel needs is taken once (take()).
+Light first_light;
+vec3 ambient_light;
+Light light_of_frame(int i) { return Light(frame.lights[i].position, frame.lights[i].axis, frame.lights[i].strength, frame.lights[i].attenuation, frame.lights[i].cone); }
+Light light_here(int i) {
+  if (light_count == 1) return first_light;
+  return light_of_frame(i);
+}
+#define FRAME_LIGHT(i) light_here(i)
+#define FRAME_AMBIENT ambient_light
 #include "common/shading.glsl"
 
 #ifdef PIXEL_MAP
@@ -42,8 +52,13 @@ layout(std430, set = 1, binding = 9) writeonly buffer OutColor { uint out_color[
 layout(std430, set = 1, binding = 10) writeonly buffer OutEncoded { float out_encoded[]; };
 layout(std430, set = 1, binding = 11) writeonly buffer OutDepth { float out_depth[]; };
 layout(std430, set = 1, binding = 12) writeonly buffer OutId { uint out_id[]; };
-layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { vec4 out_normal[]; }; // surface: and depth; shadow: payload
+layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { PAIR out_normal[]; }; // surface: and depth; shadow: payload
 layout(std430, set = 1, binding = 14) writeonly buffer OutColorPairs { PAIR out_color_pairs[]; }; // the wider formats
+
+void write_normal(uint at, vec4 v) {
+  out_normal[2u * at] = pair(floatBitsToUint(v.xy));
+  out_normal[2u * at + 1u] = pair(floatBitsToUint(v.zw));
+}
 
 void write_color(uint at, vec4 color) {
   if (color_words == 1u) {
@@ -75,12 +90,14 @@ Taken take() {
   u.inverse_rest = frame.depth_near.y;
   u.material = step.material;
   u.ambient = (one_material ? u.material.x : 1.0) * frame.ambient.rgb;
+  ambient_light = frame.ambient.rgb;
+  if (light_count == 1) first_light = light_of_frame(0);
   u.head_light = (one_material ? u.material.y : 1.0) * frame.lights[0].strength.rgb;
 #ifdef SHADOW_SET
-  if (shadow_maps > 0) u.map0 = take_map(0);
-  if (shadow_maps > 1) u.map1 = take_map(1);
-  if (shadow_maps > 2) u.map2 = take_map(2);
-  if (shadow_maps > 3) u.map3 = take_map(3);
+  if (shadow_maps > 0) u.map0 = take_map(0, light_of_map0);
+  if (shadow_maps > 1) u.map1 = take_map(1, light_of_map1);
+  if (shadow_maps > 2) u.map2 = take_map(2, light_of_map2);
+  if (shadow_maps > 3) u.map3 = take_map(3, light_of_map3);
 #endif
   return u;
 }
@@ -120,12 +137,13 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Wi
     if (phase == 1) {
       write_color(at, vec4(own, float(winner.material)));
       out_id[at] = winner.id;
-      out_normal[at] = vec4(normal, t);
+      write_normal(at, vec4(normal, t));
     } else if (color_words != 0u) {
       vec4 payload[payload_vec4s];
       pack(particle, payload);
-      out_normal[at] = payload[0];
-      out_color_pairs[2u * at] = pair(uvec2(winner.id, type_number));
+      write_normal(at, payload[0]);
+      if (color_words == 1u) out_id[at] = winner.id; // a map that stays in buffers
+      else out_color_pairs[2u * at] = pair(uvec2(winner.id, type_number));
     }
     return;
   }
@@ -135,10 +153,11 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Wi
   } else {
 #ifdef SHADOW_SET
     vec3 position = ray.origin + t * ray.direction;
-    if (shadow_maps > 0) lit.map0 = light_past(u.map0, casters0, (orthographic_maps & 1) != 0, winner.id, position);
-    if (shadow_maps > 1) lit.map1 = light_past(u.map1, casters1, (orthographic_maps & 2) != 0, winner.id, position);
-    if (shadow_maps > 2) lit.map2 = light_past(u.map2, casters2, (orthographic_maps & 4) != 0, winner.id, position);
-    if (shadow_maps > 3) lit.map3 = light_past(u.map3, casters3, (orthographic_maps & 8) != 0, winner.id, position);
+    lit = all_lit();
+    if (shadow_maps > 0) ASK_MAP(casters0, caster_ids0, u.map0, (orthographic_maps & 1) != 0, position, winner.id, changed && faces(u.map0, position, normal), lit.blocked0)
+    if (shadow_maps > 1) ASK_MAP(casters1, caster_ids1, u.map1, (orthographic_maps & 2) != 0, position, winner.id, changed && faces(u.map1, position, normal), lit.blocked1)
+    if (shadow_maps > 2) ASK_MAP(casters2, caster_ids2, u.map2, (orthographic_maps & 4) != 0, position, winner.id, changed && faces(u.map2, position, normal), lit.blocked2)
+    if (shadow_maps > 3) ASK_MAP(casters3, caster_ids3, u.map3, (orthographic_maps & 8) != 0, position, winner.id, changed && faces(u.map3, position, normal), lit.blocked3)
 #endif
     color = shade(Surface(ray.origin + t * ray.direction, normal, -normalize(ray.direction)), own, material);
   }
@@ -149,7 +168,7 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Wi
   if ((aovs & 1u) != 0u) out_depth[at] = t;
   if ((aovs & 2u) != 0u) out_id[at] = winner.id;
   if ((aovs & 4u) != 0u)
-    out_normal[at] = vec4(normal.x * frame.world_from_view0.xyz + normal.y * frame.world_from_view1.xyz + normal.z * frame.world_from_view2.xyz, 0.0);
+    write_normal(at, vec4(normal.x * frame.world_from_view0.xyz + normal.y * frame.world_from_view1.xyz + normal.z * frame.world_from_view2.xyz, 0.0));
 }
 
 #endif
