@@ -3,6 +3,7 @@
 
 #include "core/base/parallel.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
