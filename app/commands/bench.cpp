@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // mote bench: how long frames take. A frame is recorded, submitted and waited for, with the display pass
 // and without reading it back; the camera turns half a degree about the vertical each frame (--turn), or cuts to
-// another side (--cut). The first frame (which makes pipelines) and two more are not in the statistics.
+// another side (--cut). The first frame (which makes pipelines) and two more are not in the statistics. Before that it
+// notes what preparing the scene took, and how much memory the process held then and at the end.
 #include "app/codes.hpp"
 #include "app/commands/command.hpp"
 #include "app/library/calibrate.hpp"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <map>
 
 namespace mote::app {
@@ -34,7 +36,34 @@ struct PassTimes {
   std::optional<rg::PassCounts> counts{};                             // of the last frame
 };
 
+using Clock = std::chrono::steady_clock;
+double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+
+// Bytes that the process holds in memory; by the kernel's account, where there is /proc.
+struct Held {
+  std::optional<std::uint64_t> now{}, most{};
+};
+
+Held held() {
+  Held out;
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    std::uint64_t kilobytes = 0;
+    if (word == "VmRSS:" && status >> kilobytes) out.now = kilobytes * 1024;
+    if (word == "VmHWM:" && status >> kilobytes) out.most = kilobytes * 1024;
+  }
+  return out;
+}
+
+struct Prepared { // ms
+  SceneSource::Preparing particles{};
+  double upload{};
+  Held memory{};
+};
+
 struct Measured {
+  Prepared prepared{};
+  Held memory{}; // at the end
   double first{};
   std::vector<double> frames{}; // ms
   std::vector<PassTimes> passes{};
@@ -44,13 +73,12 @@ struct Measured {
 constexpr double degrees_of_a_cut = 90.0;
 
 Measured measure(FrameRenderer& renderer, const Job& job, const BenchArguments& a) {
-  using Clock = std::chrono::steady_clock;
   Measured out;
   for (int k = 0; k < warm_up + a.frames; ++k) {
     const View view = job.view_of(turned(job.scene.camera, (a.turn + (a.cut ? degrees_of_a_cut : 0.0)) * k));
     const Clock::time_point start = Clock::now();
     renderer.wait(renderer.draw(view));
-    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    const double ms = ms_since(start);
     if (k == 0) out.first = ms;
     if (k < warm_up) continue;
     out.frames.push_back(ms);
@@ -69,6 +97,7 @@ Measured measure(FrameRenderer& renderer, const Job& job, const BenchArguments& 
       }
     }
   }
+  out.memory = held();
   return out;
 }
 
@@ -83,6 +112,9 @@ void print_json(const Measured& m, const std::string& device, std::string_view e
   json["device"] = device;
   json["expansion"] = expansion;
   json["primitives"] = primitives;
+  json["prepare"] = {{"values_ms", rounded(m.prepared.particles.values)}, {"chunks_ms", rounded(m.prepared.particles.chunks)}, {"upload_ms", rounded(m.prepared.upload)}};
+  const auto bytes = [](const std::optional<std::uint64_t>& n) { return n ? nlohmann::ordered_json(*n) : nlohmann::ordered_json(nullptr); };
+  json["memory"] = {{"prepared_bytes", bytes(m.prepared.memory.now)}, {"resident_bytes", bytes(m.memory.now)}, {"peak_bytes", bytes(m.memory.most)}};
   json["passes"] = nlohmann::ordered_json::array();
   for (const PassTimes& pass : m.passes) {
     nlohmann::ordered_json row;
@@ -102,6 +134,10 @@ void print_text(const Measured& m, const std::string& device, std::string_view e
   fmt::print("median {:.2f} ms, from {:.2f} to {:.2f} ms over {} frames; first frame {:.1f} ms\n", median(m.frames),
              *std::min_element(m.frames.begin(), m.frames.end()), *std::max_element(m.frames.begin(), m.frames.end()),
              m.frames.size(), m.first);
+  fmt::print("prepared in {:.1f} ms: values {:.1f}, sort and boxes {:.1f}, upload {:.1f}\n", m.prepared.particles.values + m.prepared.particles.chunks + m.prepared.upload,
+             m.prepared.particles.values, m.prepared.particles.chunks, m.prepared.upload);
+  if (m.memory.now && m.memory.most)
+    fmt::print("in memory {:.1f} MB, at most {:.1f} MB\n", static_cast<double>(*m.memory.now) / 1e6, static_cast<double>(*m.memory.most) / 1e6);
   for (const PassTimes& pass : m.passes) {
     fmt::print("  {:<16} device {:>8.2f} ms   recording {:>7.2f} ms\n", pass.name, median(pass.gpu), median(pass.cpu));
     for (const auto& [name, times] : pass.stages) fmt::print("    {:<14} device {:>8.2f} ms\n", name, median(times));
@@ -125,8 +161,11 @@ Exit run(const BenchArguments& a) {
   FrameRenderer renderer(device, std::move(*graph), config, a.device.display, expansion, warm_up + a.frames);
   renderer.set_stage_times(a.stages);
   if (a.stats) renderer.count_work();
+  const Clock::time_point start = Clock::now();
   renderer.set_scene(job.scene);
-  const Measured measured = measure(renderer, job, a);
+  const Prepared prepared{job.source->preparing, ms_since(start), held()};
+  Measured measured = measure(renderer, job, a);
+  measured.prepared = prepared;
   print(renderer.report());
   const std::string_view used = passes::to_string(renderer.expansion());
   (a.json ? print_json : print_text)(measured, device.info().name, used, job.scene.particle_count());

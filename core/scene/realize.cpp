@@ -13,12 +13,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace mote {
 namespace {
 
 constexpr std::uint64_t most_rows = 0xFFFFFFFEu;
+
+double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
 
 std::shared_ptr<const data::Frame> generated_frame(const GeneratedName& name) {
   GeneratedParticles made = generate(name);
@@ -62,7 +67,9 @@ double largest_reach(const FrameContext& context, const DataDesc& desc, Diagnost
 }
 
 // One batch for each group of rows that has copies of its own; one where nothing is copied.
-std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& context, Annotations& annotations, Diagnostics& diagnostics) {
+std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& context, Annotations& annotations, SceneSource::Preparing& preparing,
+                                Diagnostics& diagnostics) {
+  const auto start = std::chrono::steady_clock::now();
   const data::Frame& frame = context.frame;
   if (frame.count > most_rows) {
     diagnostics.error(code::too_many_particles, context.contents,
@@ -87,19 +94,23 @@ std::vector<Batch> make_batches(const DataDesc& desc, const FrameContext& contex
   if (colors.key && std::find(annotations.keys.begin(), annotations.keys.end(), *colors.key) == annotations.keys.end())
     annotations.keys.push_back(std::move(*colors.key));
   std::vector<Batch> batches;
-  const auto add = [&](const std::string& shape, std::shared_ptr<const ChunkSet> chunks, const Copies& group, std::uint64_t rows) {
+  preparing.values += ms_since(start);
+  const auto add = [&](const std::string& shape, const Drawable& drawn, const Copies& group, std::uint64_t rows) {
+    const auto begin = std::chrono::steady_clock::now();
+    std::shared_ptr<const ChunkSet> chunks = chunks_of(drawn);
+    preparing.chunks += ms_since(begin);
     batches.push_back({.name = context.name, .type = shape, .chunks = std::move(chunks), .instances = instances_of(desc, replicas, group.transforms),
                        .material = desc.material, .color = colors.constant, .alpha = desc.alpha, .density = desc.density, .row_count = rows,
                        .group = static_cast<std::uint32_t>(&group - groups.data())});
   };
-  for (const Copies& group : groups) add(type, chunks_of(group.rows.empty() ? drawable : subset(drawable, group.rows)), group, frame.count);
+  for (const Copies& group : groups) add(type, group.rows.empty() ? drawable : subset(drawable, group.rows), group, frame.count);
   if (desc.style != MoleculeStyle::BallAndStick && desc.style != MoleculeStyle::Licorice) return batches;
   const data::Bonds bonds = drawn_bonds(context, desc, diagnostics);
   const double radius = desc.bond_radius.value_or(usual_bond_radius(frame, desc.style));
   const bool open = desc.alpha < 1.0 || desc.opacity.rule != AlphaRule::Constant; // no discs inside of what one looks through
   for (const Copies& group : groups)
     if (const Drawable sticks = bond_sticks(frame, bonds, group.rows, atom_colors, radius, open); !sticks.rows.empty())
-      add("cylinder", chunks_of(sticks), group, bonds.rows.size());
+      add("cylinder", sticks, group, bonds.rows.size());
   return batches;
 }
 
@@ -173,7 +184,7 @@ private:
       add_series_bounds(i);
       if (const auto& reach = source_.reach(i)) context.usual_radius = reach->radius;
     }
-    for (Batch& batch : make_batches(data, context, scene_.annotations, diagnostics_)) {
+    for (Batch& batch : make_batches(data, context, scene_.annotations, source_.preparing, diagnostics_)) {
       batch.id_base = scene_.particle_count();
       batch.data = static_cast<std::uint32_t>(i);
       if (!over_series)

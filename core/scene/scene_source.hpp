@@ -47,6 +47,12 @@ public:
     std::vector<glm::dmat4> transforms{};
   };
   std::optional<Reach>& reach(std::size_t data);
+  // What making particles of frames took so far, in ms of wall time; kept by realize(), for `mote bench`.
+  struct Preparing {
+    double values{}; // positions, radii, colors and shapes from columns
+    double chunks{}; // sort, boxes and records
+  };
+  Preparing preparing{};
 
 private:
   struct Entry;

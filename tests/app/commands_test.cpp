@@ -221,6 +221,9 @@ TEST_F(Commands, BenchHasTheContractedKeys) {
   EXPECT_EQ(bench["primitives"], 1000);
   ASSERT_EQ(bench["passes"].size(), 2u);
   for (const char* key : {"name", "gpu_ms", "cpu_ms"}) EXPECT_TRUE(bench["passes"][0].contains(key)) << key;
+  for (const char* key : {"values_ms", "chunks_ms", "upload_ms"}) EXPECT_GT(bench["prepare"][key].get<double>(), 0.0) << key;
+  EXPECT_GT(bench["memory"]["prepared_bytes"], 1'000'000u) << "of the whole process";
+  EXPECT_GE(bench["memory"]["peak_bytes"], bench["memory"]["resident_bytes"]);
   EXPECT_GE(bench["max_ms"].get<double>(), bench["median_ms"].get<double>());
   EXPECT_GE(bench["median_ms"].get<double>(), bench["min_ms"].get<double>());
 }
