@@ -4,6 +4,7 @@
 // the side alone, a surface with two faces. Formulas: method book, sections 3.2 (intersection) and 4.2 (bounds).
 // The including type.glsl says MAY_BE_OPEN.
 #include "particles/axial.glsl"
+#include "particles/touches.glsl"
 
 #define CASTER_VEC4S 3
 const int record_vec4s = 3;
@@ -89,6 +90,9 @@ bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
 Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return sampled_outline(intersect(ray, p, again)); }
 
 #ifdef TILES
+#define TILE_TOUCHES
+bool tile_touches(Particle p, vec2 middle, float reach) { return segment_touches(p.center, p.h, max(p.radius, p.radius_end), middle, reach); }
+
 Proxy tile_proxy(Particle p) {
   vec3 u = axis_of(p.h).u;
   return united(disc_proxy(p.center - p.h, u, p.radius), disc_proxy(p.center + p.h, u, p.radius_end));

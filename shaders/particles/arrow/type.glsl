@@ -4,6 +4,7 @@
 // the tip at center + h. Formulas: method book, sections 3.3 and 4.2. The solid is not convex: its interval runs from the
 // first entry to the last exit.
 #include "particles/axial.glsl"
+#include "particles/touches.glsl"
 
 #define CASTER_VEC4S 3
 const int record_vec4s = 3;
@@ -89,6 +90,9 @@ bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
 Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return sampled_outline(intersect(ray, p, again)); }
 
 #ifdef TILES
+#define TILE_TOUCHES
+bool tile_touches(Particle p, vec2 middle, float reach) { return segment_touches(p.center, p.h, max(p.shaft, p.head), middle, reach); }
+
 Proxy tile_proxy(Particle p) {
   Axis axis = axis_of(p.h);
   return united(united(disc_proxy(p.center - p.h, axis.u, p.shaft), disc_proxy(p.center + base_of(p, axis) * axis.u, axis.u, max(p.shaft, p.head))),

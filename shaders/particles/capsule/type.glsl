@@ -3,6 +3,7 @@
 // bounding ball), (h, radius); the segment runs from center - h to center + h. Formulas: method book, sections 3.4 (the union of a
 // cylinder and two balls, all from one shifted origin) and 4.2 (bounds). Without length it is a sphere.
 #include "particles/axial.glsl"
+#include "particles/touches.glsl"
 
 #define CASTER_VEC4S 2
 const int record_vec4s = 2;
@@ -84,6 +85,9 @@ bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
 Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return sampled_outline(intersect(ray, p, again)); }
 
 #ifdef TILES
+#define TILE_TOUCHES
+bool tile_touches(Particle p, vec2 middle, float reach) { return segment_touches(p.center, p.h, p.radius, middle, reach); }
+
 Proxy tile_proxy(Particle p) { return united(tile_ball(p.center - p.h, p.radius), tile_ball(p.center + p.h, p.radius)); }
 
 // Rays start where they meet the plane of the center's depth, so that everything is as small as the particle: with m the

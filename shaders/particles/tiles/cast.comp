@@ -13,6 +13,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #include "particles/interface.glsl"
 #include "particles/tiles/work.glsl"
 #include "particles/tiles/resolve.glsl"
@@ -79,6 +80,18 @@ uvec2 pixel_of(int k) {
     } while (pixel < pixels); \
     ++l; \
   } while (l < uint(LANES)); }
+#elif defined(TILE_TOUCHES)
+// A long type: only those of the batch that touch the tile and are not hidden, one after the other. A shuffle from a lane that is
+// no constant costs more than one that is, and less than the test.
+#define TEST_BATCH { \
+  uint touching = subgroupBallot(alive).x; \
+  do { \
+    uint l = uint(max(findLSB(touching), 0)); \
+    TileTest test = TileTest(subgroupShuffle(mine.a, l), subgroupShuffle(mine.b, l), subgroupShuffle(mine.c, l)); \
+    uint who = subgroupShuffle(entry, l); \
+    FOR_PIXELS(TEST_PIXEL) \
+    touching &= touching - 1u; \
+  } while (touching != 0u); }
 #else
 #define TEST_BATCH FOR_LANES(TEST_LANE)
 #endif
@@ -133,6 +146,10 @@ void main() {
   FOR_PIXELS(START)
   vec2 least = max(max(offset, -(offset + float(tile_size - 1))), vec2(0.0)) * inverse_focal;
   float least_ray2 = orthographic ? 1.0 : 1.0 + dot(least, least);
+#ifdef TILE_TOUCHES
+  vec2 middle = (offset + 0.5 * float(tile_size - 1)) * inverse_focal;
+  float reach = (0.72 * float(tile_size - 1) + 1.5 * proxy_slack) * inverse_focal; // to its corners' pixels
+#endif
   float hidden_from = far[tile];
   float depth_origin = step.depth_origin, depth_scale = step.depth_scale;
   uint hidden_step = depth_step(hidden_from, depth_origin, depth_scale);
@@ -148,7 +165,11 @@ void main() {
       at += uint(LANES);
     } while (at < end && !subgroupAny(alive));
     entry = place_of(entry);
-    TileTest mine = tile_test(load_particle(entry), alive);
+    Particle particle = load_particle(entry);
+#ifdef TILE_TOUCHES
+    alive = alive && tile_touches(particle, middle, reach);
+#endif
+    TileTest mine = tile_test(particle, alive);
     TEST_BATCH
     float farthest = 0.0;
     FOR_PIXELS(FARTHEST)
