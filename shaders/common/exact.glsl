@@ -31,6 +31,34 @@ void shift_to_nearest(vec3 f, vec3 d, out vec3 nearest, out float parameter) {
   parameter = parts.x + parts.y;
 }
 
+void two_sum(vec3 a, vec3 b, out vec3 sum, out vec3 rest) {
+  precise vec3 s = a + b, t = s - a;
+  precise vec3 e = (a - (s - t)) + (b - t);
+  sum = s;
+  rest = e;
+}
+
+// The same to 2^-36 of |f|, as a sum of two floats: `nearest` has its own rounding alone, whatever the distance, and `rest` is what that took. f
+// comes as f + f_rest. The step that takes out what the 12 bits left has 12 bits itself, so that its products are exact, too.
+void shift_in_pairs(vec3 f, vec3 f_rest, vec3 d, out vec3 nearest, out vec3 rest, out vec2 parameter) {
+  float ia = 1.0 / dot(d, d);
+  precise float s = hi12(-dot(f, d) * ia);
+  precise vec3 dh = hi12(d);
+  precise vec3 dl = d - dh;
+  vec3 a, a_low, b, b_low, c, c_low;
+  two_sum(dh * s, f, a, a_low);
+  two_sum(a, dl * s, b, b_low);
+  precise float e1 = hi12(-dot(b, d) * ia);
+  two_sum(b, dh * e1, c, c_low);
+  precise vec3 low = ((a_low + b_low) + (c_low + f_rest)) + dl * e1;
+  precise float e2 = -dot(c + low, d) * ia;
+  low = low + d * e2;
+  precise vec3 rounded = c + low;
+  rest = low - (rounded - c);
+  nearest = rounded;
+  parameter = vec2(s, e1 + e2);
+}
+
 // Numbers of twice the precision: the unevaluated sum x + y of two floats, |y| at most half an ulp of x. Products by
 // Dekker's split, sums by Knuth's two-sum; each operation errs by a few 2^-46.
 vec2 two_sum(float a, float b) {

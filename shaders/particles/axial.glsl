@@ -8,32 +8,42 @@
 
 const float beyond = 1e30; // a parameter that no ray reaches
 
-// The unit axis and half length; of a particle without length, any axis.
+// The unit axis and half length; of a particle without length, any axis. h: the axis as it came, which has no rounding of its own.
 struct Axis {
-  vec3 u;
+  vec3 u, h;
   float half_length;
 };
 Axis axis_of(vec3 h) {
   float length_ = length(h);
-  return length_ > 0.0 ? Axis(h / length_, length_) : Axis(vec3(0.0, 0.0, 1.0), 0.0);
+  vec3 u = length_ > 0.0 ? h / length_ : vec3(0.0, 0.0, 1.0);
+  return Axis(u, length_ > 1e-15 ? h : u, length_); // squares stay in range
 }
 
+// What lies across the axis errs by its own rounding, not by that of what lies along it.
 struct AxialRay {
   float fz, dz;      // along the axis
   vec3 fp, dp;       // across it
   float f_p, d_p;    // their lengths
-  float across;      // (fp x dp) . u
+  vec3 l;            // the ray's point nearest to the axis, across it; fp where the ray is parallel
+  float l_p, to_axis; // its length and parameter
+  bool parallel;
 };
-AxialRay axial(OwnRay ray, vec3 u) {
+AxialRay axial(OwnRay ray, Axis axis) {
   AxialRay r;
-  r.fz = dot(ray.f, u);
-  r.dz = dot(ray.d, u);
-  vec3 dxu = cross(ray.d, u);
-  r.dp = cross(u, dxu);
-  r.fp = ray.f - r.fz * u;
+  r.fz = dot(ray.f, axis.u);
+  r.dz = dot(ray.d, axis.u);
+  vec3 f_rest, d_rest, rest;
+  vec2 parameter;
+  shift_in_pairs(ray.f, ray.rest, axis.h, r.fp, f_rest, parameter);
+  shift_in_pairs(ray.d, vec3(0.0), axis.h, r.dp, d_rest, parameter);
   r.f_p = length(r.fp);
-  r.d_p = length(dxu);
-  r.across = dot(ray.f, dxu);
+  r.d_p = length(r.dp);
+  r.parallel = r.d_p <= 1e-8 * abs(r.dz);
+  shift_in_pairs(r.fp, f_rest, r.parallel ? axis.u : r.dp, r.l, rest, parameter);
+  r.to_axis = r.parallel ? 0.0 : parameter.x + parameter.y;
+  r.l += rest + r.to_axis * d_rest;
+  r.l -= dot(r.l, axis.u) * axis.u; // the way here was long, its roundings count
+  r.l_p = length(r.l);
   return r;
 }
 
@@ -45,16 +55,23 @@ vec2 between(AxialRay r, float lo, float hi) {
   return r.dz != 0.0 ? vec2(min(a, b), max(a, b)) : parallel_in ? vec2(-beyond, beyond) : vec2(beyond, -beyond);
 }
 
-// Where the ray is inside the endless body of radius rho(z) = radius + slope (z - z0) around the axis (a cylinder with slope 0, a
-// cone of one nappe else).
-vec2 inside_round(AxialRay r, float radius, float slope, float z0) {
-  float rho = radius + slope * (r.fz - z0), rho_d = slope * r.dz;
-  vec3 gv = rho * r.dp - rho_d * r.fp;
-  float g = length(gv), x = abs(r.across);
+// A stretch of a ray within a body, and its ends as seen from the axis (or from the center of a ball).
+struct Stretch {
+  vec2 s;
+  vec3 first, last;
+};
+
+// Within the endless body of radius rho(z) = radius + slope (z - z0) around the axis (a cylinder with slope 0, a cone of one nappe
+// else). Rays that meet a nappe twice (a > 0) are solved from their point nearest to the axis, where b is -rho rho_d.
+Stretch inside_round(AxialRay r, float radius, float slope, float z0) {
+  float rho_d = slope * r.dz, a = (r.d_p - abs(rho_d)) * (r.d_p + abs(rho_d));
+  bool twice = a > 0.0;
+  vec3 l = twice ? r.l : r.fp;
+  float shift = twice ? r.to_axis : 0.0, l_p = twice ? r.l_p : r.f_p;
+  float rho = radius + slope * ((r.fz - z0) + shift * r.dz);
+  float g = twice ? abs(rho) * r.d_p : length(rho * r.dp - rho_d * r.fp), x = r.l_p * (twice ? sqrt(a) : r.d_p);
   float discriminant = (g - x) * (g + x);
-  float a = (r.d_p - abs(rho_d)) * (r.d_p + abs(rho_d));
-  float b = -r.fz * r.dz - rho * rho_d; // f is the point nearest to the center: f . d = 0
-  float c = (r.f_p - rho) * (r.f_p + rho);
+  float b = (twice ? 0.0 : dot(r.fp, r.dp)) - rho * rho_d, c = (l_p - rho) * (l_p + rho);
   float root = sqrt(max(discriminant, 0.0));
   float q = b >= 0.0 ? -(b + root) : root - b;
   float one = q != 0.0 ? c / q : 0.0;
@@ -62,25 +79,41 @@ vec2 inside_round(AxialRay r, float radius, float slope, float z0) {
   vec2 s = vec2(min(one, other), max(one, other));
   bool other_nappe = rho + rho_d * 0.5 * (max(s.x, -1e20) + min(s.y, 1e20)) < 0.0;
   bool missed = discriminant < 0.0 || other_nappe;
-  vec2 closed = missed ? vec2(beyond, -beyond) : s;
+  Stretch closed = Stretch(missed ? vec2(beyond, -beyond) : shift + s, l + s.x * r.dp, l + s.y * r.dp);
   vec2 open = rho_d > 0.0 ? vec2(s.y, beyond) : vec2(-beyond, s.x); // a steep ray meets one nappe once
-  bool parallel_axis = r.d_p <= 1e-8 * abs(r.dz);
   vec2 along = r.f_p <= rho ? vec2(-beyond, beyond) : vec2(beyond, -beyond);
-  return parallel_axis && slope == 0.0 ? along : a > 0.0 ? closed : open;
+  if (!twice) closed = Stretch(open, l + s.y * r.dp, l + s.x * r.dp);
+  if (r.parallel && slope == 0.0) closed = Stretch(along, r.fp, r.fp);
+  return closed;
 }
 
-// Where the ray is inside the ball around z u. The ray's origin is the point nearest to the center, not to the ball.
-vec2 inside_ball(OwnRay ray, AxialRay r, vec3 u, float z, float radius) {
-  float d_d = dot(ray.d, ray.d), middle = z * r.dz / d_d;
-  float distance = length((ray.f - z * u) + middle * ray.d);
-  float d2 = (radius - distance) * (radius + distance);
-  float h = sqrt(max(d2, 0.0) / d_d);
-  return d2 >= 0.0 ? vec2(middle - h, middle + h) : vec2(beyond, -beyond);
+// Within the ball around z h / |h|, h as it came.
+Stretch inside_ball(OwnRay ray, vec3 center, float radius) {
+  vec3 f, rest, l;
+  two_sum(ray.f, -center, f, rest);
+  vec2 middle;
+  vec3 l_rest;
+  shift_in_pairs(f, rest + ray.rest, ray.d, l, l_rest, middle);
+  float distance = length(l), d2 = (radius - distance) * (radius + distance);
+  float h = sqrt(max(d2, 0.0) / dot(ray.d, ray.d)), s = middle.x + middle.y;
+  return Stretch(d2 >= 0.0 ? vec2(s - h, s + h) : vec2(beyond, -beyond), l - h * ray.d, l + h * ray.d);
 }
 
 vec2 both(vec2 a, vec2 b) { return vec2(max(a.x, b.x), min(a.y, b.y)); }
 // Of intervals that touch or are empty.
 vec2 joined(vec2 a, vec2 b) { return a.x > a.y ? b : b.x > b.y ? a : vec2(min(a.x, b.x), max(a.y, b.y)); }
+
+Stretch joined(Stretch a, Stretch b) {
+  vec2 s = joined(a.s, b.s);
+  return Stretch(s, s.x == b.s.x ? b.first : a.first, s.y == b.s.y ? b.last : a.last);
+}
+
+// A cylinder with round ends.
+Stretch inside_capsule(OwnRay ray, AxialRay r, Axis axis, vec3 h, float radius) {
+  Stretch side = inside_round(r, radius, 0.0, 0.0);
+  side.s = both(side.s, between(r, -axis.half_length, axis.half_length));
+  return joined(joined(side, inside_ball(ray, -h, radius)), inside_ball(ray, h, radius));
+}
 
 // How near the ray passes the axis between lo and hi.
 float distance_to_axis(OwnRay ray, AxialRay r, vec3 u, float lo, float hi) {
@@ -89,20 +122,40 @@ float distance_to_axis(OwnRay ray, AxialRay r, vec3 u, float lo, float hi) {
   return length((ray.f - z * u) + (z * r.dz / dot(ray.d, ray.d)) * ray.d);
 }
 
-// A frustum or a cylinder between lo and hi, closed by discs: where the ray is inside, and in zw whether a disc ends that.
-vec4 inside_frustum(AxialRay r, float radius, float slope, float z0, float lo, float hi) {
-  vec2 side = inside_round(r, radius, slope, z0), slab = between(r, lo, hi), s = both(side, slab);
-  return vec4(s, slab.x > side.x ? 1.0 : 0.0, slab.y < side.y ? 1.0 : 0.0);
-}
-// At the point q of its surface: outward, in own space, not unit. `disc`: on one that the ray with direction d crosses.
-vec3 frustum_normal(vec3 q, vec3 d, vec3 u, float slope, bool disc, bool exit) {
-  vec3 across = q - dot(q, u) * u;
+// Within a frustum or a cylinder between lo and hi, closed by discs, with the outward normals (own space, not unit) at both ends; which
+// of them are on a disc.
+struct FrustumStretch {
+  vec2 s;
+  vec3 first, last;
+  bvec2 disc;
+};
+vec3 side_normal(vec3 across, vec3 u, float slope) {
   float away = length(across);
-  vec3 side = away > 0.0 ? across / away - slope * u : (slope > 0.0 ? -1.0 : 1.0) * u;
-  return disc ? ((dot(d, u) > 0.0) == exit ? 1.0 : -1.0) * u : side;
+  return away > 0.0 ? across / away - slope * u : (slope > 0.0 ? -1.0 : 1.0) * u;
+}
+FrustumStretch inside_frustum(AxialRay r, vec3 u, float radius, float slope, float z0, float lo, float hi) {
+  Stretch side = inside_round(r, radius, slope, z0);
+  vec2 slab = between(r, lo, hi);
+  bvec2 disc = bvec2(slab.x > side.s.x, slab.y < side.s.y);
+  vec3 ahead = r.dz > 0.0 ? u : -u;
+  return FrustumStretch(both(side.s, slab), disc.x ? -ahead : side_normal(side.first, u, slope), disc.y ? ahead : side_normal(side.last, u, slope), disc);
 }
 
 #ifdef TILES
+// From the point of the segment from -h to h that is nearest to q; unit.
+vec3 capsule_normal(vec3 q, vec3 h, float radius) {
+  Axis axis = axis_of(h);
+  return normal_from_own((q - clamp(dot(q, axis.u), -axis.half_length, axis.half_length) * axis.u) / radius);
+}
+
+// A frustum's face that a point near the surface is nearest to: its normal (not unit), and how far outside of the frustum the point is.
+vec4 nearest_face(vec3 q, vec3 u, float radius, float slope, float z0, float lo, float hi) {
+  float z = dot(q, u);
+  vec3 across = q - z * u;
+  float side = (length(across) - (radius + slope * (z - z0))) * inversesqrt(1.0 + slope * slope), disc = max(lo - z, z - hi);
+  return vec4(side >= disc ? side_normal(across, u, slope) : lo - z > z - hi ? -u : u, max(side, disc));
+}
+
 // The same for visibility in tiles: f is any point of the ray near the particle.
 struct TileRay {
   float f_f, f_d, d_d, fz, dz, dp2, across;

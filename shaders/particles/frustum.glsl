@@ -61,31 +61,25 @@ float slope_of(Particle p, Axis axis) { return (p.radius_end - p.radius) / (2.0 
 bool intersect(Ray ray, Particle p, out Interval hit) {
   OwnRay own = own_ray(ray, p.center, p.rest);
   Axis axis = axis_of(p.h);
-  AxialRay r = axial(own, axis.u);
-  vec4 s = inside_frustum(r, middle_radius(p), slope_of(p, axis), 0.0, -axis.half_length, axis.half_length);
-  if (MAY_BE_OPEN) { // of the side's two points, those between the ends
-    bool met = s.x <= s.y, first = met && s.z == 0.0, last = met && s.w == 0.0;
-    vec4 open = vec4(first ? s.x : s.y, last ? s.y : s.x, 0.0, 0.0);
-    open = first || last ? open : vec4(beyond, -beyond, 0.0, 0.0);
-    s = p.open ? open : s;
+  FrustumStretch in_ = inside_frustum(axial(own, axis), axis.u, middle_radius(p), slope_of(p, axis), 0.0, -axis.half_length, axis.half_length);
+  if (MAY_BE_OPEN && p.open) { // of the side's two points, those between the ends
+    bool met = in_.s.x <= in_.s.y, first = met && !in_.disc.x, last = met && !in_.disc.y;
+    vec2 s = vec2(first ? in_.s.x : in_.s.y, last ? in_.s.y : in_.s.x);
+    vec3 n_in = first ? in_.first : in_.last, n_out = last ? in_.last : in_.first; // both faces: turned to the ray
+    in_.s = first || last ? s : vec2(beyond, -beyond);
+    in_.first = dot(n_in, own.d) > 0.0 ? -n_in : n_in;
+    in_.last = dot(n_out, own.d) < 0.0 ? -n_out : n_out;
   }
-  bool met = s.x <= s.y;
-  hit = interval_of(own, met ? s.xy : vec2(0.0), s.zw);
+  bool met = in_.s.x <= in_.s.y;
+  hit = interval_of(own, met ? in_.s : vec2(0.0), in_.first, in_.last, vec2(0.0));
   return met;
 }
-
-vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) {
-  Axis axis = axis_of(p.h);
-  vec3 d = to_own(ray.direction);
-  vec3 n = frustum_normal(interval_point(ray, hit, exit), d, axis.u, slope_of(p, axis), (exit ? hit.ends.w : hit.ends.z) > 0.0, exit);
-  if (MAY_BE_OPEN) n = p.open && (dot(n, d) > 0.0) != exit ? -n : n; // both faces: turned to the ray
-  return normal_from_own(n);
-}
+vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) { return normal_from_own(exit ? hit.ends.xyz : hit.local.xyz); }
 
 bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
   OwnRay own = own_ray(ray, p.center, p.rest);
   Axis axis = axis_of(p.h);
-  return max(p.radius, p.radius_end) < radius && distance_to_axis(own, axial(own, axis.u), axis.u, -axis.half_length, axis.half_length) < radius;
+  return max(p.radius, p.radius_end) < radius && distance_to_axis(own, axial(own, axis), axis.u, -axis.half_length, axis.half_length) < radius;
 }
 Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return sampled_outline(intersect(ray, p, again)); }
 
@@ -126,8 +120,9 @@ bool tile_nearer(TileTest s, float x, float y, inout float key) {
 }
 
 vec3 normal_at(Ray ray, Particle p, float t) {
-  Interval hit;
-  intersect(ray, p, hit);
-  return outward_normal(ray, p, hit, false);
+  Axis axis = axis_of(p.h);
+  float half_length = p.open ? beyond : axis.half_length;
+  vec3 n = nearest_face(own_point(ray, p.center, t), axis.u, middle_radius(p), slope_of(p, axis), 0.0, -half_length, half_length).xyz;
+  return normal_from_own(p.open && dot(n, to_own(ray.direction)) > 0.0 ? -n : n);
 }
 #endif

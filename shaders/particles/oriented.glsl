@@ -3,11 +3,15 @@
 // of the bounding ball), (quaternion x, y, z, w), (half lengths of the axes, -) and, of the superquadric, (e1, e2, -, -); the
 // particle in its own space; a ray in its axes. A quaternion counts by its direction. These solids are symmetric about each
 // plane of their axes, so a mirroring placement turns an axis at most into its opposite.
-// A type defines record_vec4s before it includes this, and HANDED if its solid is not symmetric.
+// A type defines record_vec4s before it includes this, HANDED if its solid is not symmetric, and FINE_AXES where directions of axes in
+// floats are not enough (their errors count by the square of the ratio of the axes) and the record has no shape.
 #ifndef MOTE_ORIENTED_GLSL
 #define MOTE_ORIENTED_GLSL
 
 #include "particles/bounds.glsl"
+#ifdef FINE_AXES
+#include "particles/fine_axes.glsl"
+#endif
 
 #define CASTER_VEC4S 4
 #ifdef NEAR_EYE
@@ -22,6 +26,9 @@ struct Particle {
   vec3 x, y;   // own space, as all that follows: the first two axes, unit; the third is their cross product
   vec3 size;
   vec2 shape;
+#ifdef FINE_AXES
+  vec3 turn;   // by which the axes are turned from x and y, a rotation vector
+#endif
 #ifdef HANDED
   float hand;  // -1 where a placement mirrors: of the third axis
 #endif
@@ -39,6 +46,12 @@ Particle oriented(vec4 record[record_vec4s], Placement at, vec3 center, float bo
   p.x = normalize(turned(at, vec3(1.0 - s * (q.y * q.y + q.z * q.z), s * (q.x * q.y + q.w * q.z), s * (q.x * q.z - q.w * q.y))));
   vec3 y = turned(at, vec3(s * (q.x * q.y - q.w * q.z), 1.0 - s * (q.x * q.x + q.z * q.z), s * (q.y * q.z + q.w * q.x)));
   p.y = normalize(y - dot(p.x, y) * p.x);
+#ifdef FINE_AXES // apart from the above, which is all that tiles need for visibility
+  FineColumns fine = fine_columns(q);
+  vec3 x_rest = fine_rest(turned(at, fine.x), turned(at, fine.x_rest), p.x), y_rest = fine_rest(turned(at, fine.y), turned(at, fine.y_rest), p.y);
+  vec3 across = cross(p.x, p.y);
+  p.turn = vec3(dot(y_rest, across), -dot(x_rest, across), dot(x_rest, p.y));
+#endif
   p.size = scaled(at, 1.0) * record[2].xyz;
   p.shape = record_vec4s > 3 ? record[record_vec4s - 1].xy : vec2(1.0);
 #ifdef HANDED
@@ -66,7 +79,11 @@ Particle unpack(vec4 payload[payload_vec4s]) {
   p.x = payload[1].xyz;
   p.y = payload[2].xyz;
   p.size = vec3(payload[1].w, payload[2].w, payload[3].x);
+#ifdef FINE_AXES
+  p.turn = payload[3].yzw;
+#else
   p.shape = payload[3].yz;
+#endif
 #ifdef HANDED
   p.hand = payload[3].w;
 #endif
@@ -79,7 +96,9 @@ void pack(Particle p, out vec4 payload[payload_vec4s]) {
   payload[0] = vec4(p.center, p.bound);
   payload[1] = vec4(p.x, p.size.x);
   payload[2] = vec4(p.y, p.size.y);
-#ifdef HANDED
+#ifdef FINE_AXES
+  payload[3] = vec4(p.size.z, p.turn);
+#elif defined(HANDED)
   payload[3] = vec4(p.size.z, p.shape, p.hand);
 #else
   payload[3] = vec4(p.size.z, p.shape, 0.0);
@@ -114,10 +133,26 @@ UnitRay unit_ray(Ray ray, Particle p) {
   OwnRay own = ray_of(ray, p);
   mat3 axes = axes_of(p);
   UnitRay u;
+#ifdef FINE_AXES
+  // The way between the two nearest points is gone in own space, where it is exact; scaled, it would keep the roundings of both.
+  FineAxes fine = fine_axes(p.x, p.y, p.turn);
+  u.d = in_axes(own.d, vec3(0.0), fine) / p.size;
+  float ia = 1.0 / dot(u.d, u.d);
+  precise float shift = hi12(-dot((own.f * axes) / p.size, u.d) * ia);
+  precise vec3 dh = hi12(own.d);
+  precise vec3 dl = own.d - dh;
+  vec3 f, rest;
+  two_sum(own.f, dh * shift, f, rest);
+  vec3 l = in_axes(f, rest + own.rest + dl * shift, fine) / p.size;
+  float e = dot(l, u.d) * ia;
+  u.l = l - e * u.d;
+  u.depth = vec2(own.depth.x, own.depth.y + (shift - e));
+#else
   float shift;
   u.d = (own.d * axes) / p.size;
   shift_to_nearest((own.f * axes) / p.size, u.d, u.l, shift);
   u.depth = vec2(own.depth.x, own.depth.y + shift);
+#endif
   return u;
 }
 // A normal where the half lengths are 1 (a gradient there) in view space; unit.

@@ -45,26 +45,28 @@ vec3 placed_center(Placement at, vec3 relative) {
 
 // A ray in own space: f, its point nearest to the center, the direction d, and the depth of f as a sum of two floats:
 // a point f + s d has the depth depth.x + (depth.y + s). Method book, section 3.0.
+// `rest`: what rounding took from f.
 struct OwnRay {
   vec3 f, d;
   vec2 depth;
+  vec3 rest;
 };
 
 // `rest`: center - float32(center); 0 but for NEAR_EYE.
 OwnRay own_ray(Ray ray, vec3 center, vec3 rest) {
-  vec3 l = vec3(ray.origin.xy - center.xy, 0.0);
+  vec3 l = vec3(ray.origin.xy - center.xy, 0.0), low = vec3(0.0);
   vec2 depth = vec2(center.z, 0.0);
-  if (!orthographic) shift_in_parts(ray.origin - center, ray.direction, l, depth);
+  if (!orthographic) shift_in_pairs(ray.origin - center, vec3(0.0), ray.direction, l, low, depth);
 #ifdef NEAR_EYE
-  l = orthographic ? l + (ray.rest - vec3(rest.xy, 0.0)) : l + (depth.x * ray.rest - rest);
+  low += orthographic ? ray.rest - vec3(rest.xy, 0.0) : depth.x * ray.rest - rest;
   if (orthographic) depth.y = rest.z;
 #endif
-  OwnRay own = OwnRay(to_own(l), to_own(ray.direction), depth);
+  OwnRay own = OwnRay(to_own(l), to_own(ray.direction), depth, to_own(low));
 #if defined(AFFINE) || defined(NEAR_EYE)
-  float shift;
-  shift_to_nearest(own.f, own.d, l, shift);
-  own.f = l;
-  own.depth.y += shift;
+  vec2 shift;
+  vec3 f = own.f, f_rest = own.rest;
+  shift_in_pairs(f, f_rest, own.d, own.f, own.rest, shift);
+  own.depth.y += shift.x + shift.y;
 #endif
   return own;
 }
@@ -75,6 +77,10 @@ vec3 own_point(Ray ray, vec3 center, float t) { return to_own(t * ray.direction 
 // where the ray misses.
 Interval interval_of(OwnRay own, vec2 s, vec2 parts) {
   return Interval(own.depth.x + (own.depth.y + s.x), own.depth.x + (own.depth.y + s.y), vec4(own.f, 0.0), vec4(s, parts));
+}
+// Of types that form their normals with the intersection (own space, any length).
+Interval interval_of(OwnRay own, vec2 s, vec3 normal_in, vec3 normal_out, vec2 parts) {
+  return Interval(own.depth.x + (own.depth.y + s.x), own.depth.x + (own.depth.y + s.y), vec4(normal_in, parts.x), vec4(normal_out, parts.y));
 }
 vec3 interval_point(Ray ray, Interval hit, bool exit) { return hit.local.xyz + (exit ? hit.ends.y : hit.ends.x) * to_own(ray.direction); }
 

@@ -82,7 +82,7 @@ TEST_F(CapsuleTest, WithoutLengthIsASphere) {
   const Picture a = check(capsules, view), b = draw(spheres, view);
   std::size_t other = 0;
   for (std::size_t i = 0; i < a.id.size(); ++i) other += a.id[i] != b.id[i] || (a.id[i] == 0 && std::abs(a.depth[i] - b.depth[i]) > 2e-6f);
-  EXPECT_EQ(other, 0u);
+  EXPECT_LE(other, 8u) << "but for the limb, where the sphere errs more";
 }
 
 class FrustumTest : public GpuTest {};
@@ -147,31 +147,31 @@ TEST_F(FrustumTest, Needles) {
 
 TEST_P(Axial, CloudPerspective) {
   const Scene scene = cloud_scene({2500, 8, 0.05, 0.6});
-  check(scene, look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200}), {.least_hits = 0.2, .normal_factor = 6});
-  check(scene, look(scene, {0, 0, 14}, {0, 0, 0}, {320, 200}, 100), {.least_hits = 0.2, .normal_factor = 6});
+  check(scene, look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200}), {.least_hits = 0.2});
+  check(scene, look(scene, {0, 0, 14}, {0, 0, 0}, {320, 200}, 100), {.least_hits = 0.2});
 }
 
 TEST_P(Axial, CloudOrthographic) {
   const Scene scene = cloud_scene({2500, 8, 0.05, 0.6});
   // Rays run exactly along generators of the cones that stand upright, and then along the axes of some.
-  check(scene, look_orthographic(scene, {9, 12, 30}, {0, 0, 0}, {320, 200}, 24), {.least_hits = 0.2, .normal_factor = 6});
-  check(scene, look_orthographic(scene, {0, 0, 30}, {0, 0, 0}, {320, 200}, 24), {.least_hits = 0.2, .normal_factor = 6});
+  check(scene, look_orthographic(scene, {9, 12, 30}, {0, 0, 0}, {320, 200}, 24), {.least_hits = 0.2});
+  check(scene, look_orthographic(scene, {0, 0, 30}, {0, 0, 0}, {320, 200}, 24), {.least_hits = 0.2});
 }
 
 TEST_P(Axial, EyeInside) {
   std::vector<Glyph> glyphs = cloud_of(GetParam(), {1500, 10, 0.05, 0.6});
   glyphs.push_back(axial(GetParam(), {0.1, 0.2, 0.3}, {2, 1, 0.5}, 1.5)); // holds the eye
   const Scene scene = glyph_scene(type_of(GetParam()), glyphs);
-  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.9, .depth_factor = 3, .normal_factor = 6});
+  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.9, .depth_factor = 3});
 }
 
 TEST_P(Axial, NearAndFarCut) {
   const Scene scene = cloud_scene({1500, 10, 0.05, 1.0});
   View view = look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200});
   view.near_cut = 30.0;
-  check(scene, view, {.least_hits = 0.1, .normal_factor = 6});
+  check(scene, view, {.least_hits = 0.1});
   view.far_cut = 34.0;
-  check(scene, view, {.least_hits = 0.05, .normal_factor = 6});
+  check(scene, view, {.least_hits = 0.05});
 }
 
 TEST_P(Axial, FarFromTheOrigin) {
@@ -179,7 +179,7 @@ TEST_P(Axial, FarFromTheOrigin) {
   std::vector<Glyph> glyphs = cloud_of(GetParam(), {1500, 8, 0.05, 0.6});
   for (Glyph& g : glyphs) g.center += o;
   const Scene scene = glyph_scene(type_of(GetParam()), glyphs);
-  check(scene, look(scene, o + glm::dvec3(9, 12, 30), o, {320, 200}), {.least_hits = 0.1, .normal_factor = 6});
+  check(scene, look(scene, o + glm::dvec3(9, 12, 30), o, {320, 200}), {.least_hits = 0.1});
 }
 
 // The eye at a thousand and a hundred thousand times the size.
@@ -188,7 +188,7 @@ TEST_P(Axial, FarAway) {
     std::vector<Glyph> glyphs;
     for (int i = 0; i < 9; ++i) glyphs.push_back(axial(GetParam(), {(i % 3 - 1) * 5.0, (i / 3 - 1) * 5.0, 0.0}, {0.9 * std::cos(i), 0.9 * std::sin(i), 0.3 * i - 1}, 0.7));
     const Scene scene = glyph_scene(type_of(GetParam()), glyphs);
-    check(scene, look(scene, {0.3 * far, 0.2 * far, far}, {0, 0, 0}, {200, 200}, glm::degrees(20.0 / far)), {.least_hits = 0.02, .normal_factor = far > 1e4 ? 60.0 : 6.0});
+    check(scene, look(scene, {0.3 * far, 0.2 * far, far}, {0, 0, 0}, {200, 200}, glm::degrees(20.0 / far)), {.least_hits = 0.02});
   }
 }
 
@@ -196,24 +196,24 @@ TEST_P(Axial, InstancesOfEveryKind) {
   Scene scene = placed(glyph_scene(type_of(GetParam()), cloud_of(GetParam(), {150, 3, 0.1, 0.5}), {0xFF3080F0u, 0xFF80F030u}),
                        {moved(-7, 0, 0), moved(0, 0, 0) * scaled(1, -0.5, 1), moved(7, 0, 0) * turned(0.3, {1, 0, 1}) * scaled(-1, 1, 1), moved(0, 5, 0) * general()});
   scene.batches[0].id_base = 1000;
-  check(scene, look(scene, {2, 6, 30}, {0, 0, 0}, {320, 200}), {.least_hits = 0.1, .normal_factor = 12});
-  check(scene, look_orthographic(scene, {2, 6, 30}, {0, 0, 0}, {320, 200}, 20), {.least_hits = 0.1, .normal_factor = 12});
+  check(scene, look(scene, {2, 6, 30}, {0, 0, 0}, {320, 200}), {.least_hits = 0.1, .normal_factor = 2});
+  check(scene, look_orthographic(scene, {2, 6, 30}, {0, 0, 0}, {320, 200}, 20), {.least_hits = 0.1, .normal_factor = 2});
 }
 
 TEST_P(Axial, UnevenlyScaledFromInside) {
   std::vector<Glyph> glyphs = cloud_of(GetParam(), {600, 6, 0.05, 0.6});
   glyphs.push_back(axial(GetParam(), {0.1, 0.2, 0.3}, {2, 1, 0.5}, 1.5));
   const Scene scene = placed(glyph_scene(type_of(GetParam()), glyphs), {general()});
-  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.8, .depth_factor = 6, .normal_factor = 12});
+  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.8, .depth_factor = 6, .normal_factor = 2});
   View cut = look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200});
   cut.near_cut = 31.0;
-  check(scene, cut, {.least_hits = 0.05, .normal_factor = 12});
+  check(scene, cut, {.least_hits = 0.05, .normal_factor = 2});
 }
 
 // Spheres and these in one picture: tiles draw the more frequent ones.
 TEST_P(Axial, BesideSpheres) {
   const Scene scene = joined(scene_of(cloud(300, 6, 0.05, 0.6)), cloud_scene({300, 6, 0.05, 0.6}, 8));
-  check(scene, look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200}), {.least_hits = 0.1, .normal_factor = 6});
+  check(scene, look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200}), {.least_hits = 0.1});
 }
 
 } // namespace

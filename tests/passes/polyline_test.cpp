@@ -61,25 +61,25 @@ class Polyline : public GraphTest {};
 
 TEST_F(Polyline, CloudsEqualTheReference) {
   const Scene scene = glyph_scene("polyline", walks(60, 6, 0.3));
-  check(scene, look(scene, {9, 12, 28}, {0, 0, 0}, {240, 160}), {.least_hits = 0.1, .most_ambiguous = 0.03, .normal_factor = 8});
-  check(scene, look_orthographic(scene, {0, 0, 30}, {0, 0, 0}, {240, 160}, 16), {.least_hits = 0.1, .most_ambiguous = 0.03, .normal_factor = 8});
+  check(scene, look(scene, {9, 12, 28}, {0, 0, 0}, {240, 160}), {.least_hits = 0.1, .most_ambiguous = 0.03});
+  check(scene, look_orthographic(scene, {0, 0, 30}, {0, 0, 0}, {240, 160}, 16), {.least_hits = 0.1, .most_ambiguous = 0.03});
 }
 
 TEST_F(Polyline, InsideCutMirroredUnevenFar) {
   const std::vector<Glyph> thick = walks(12, 4, 1.2, 9);
   const Scene inside = glyph_scene("polyline", thick);
-  check(inside, look(inside, thick[3].center, thick[3].center + glm::dvec3(1, 0.3, 0.2), {160, 120}, 70), {.least_hits = 0.8, .most_ambiguous = 0.05, .depth_factor = 4, .normal_factor = 8});
+  check(inside, look(inside, thick[3].center, thick[3].center + glm::dvec3(1, 0.3, 0.2), {160, 120}, 70), {.least_hits = 0.8, .most_ambiguous = 0.05, .depth_factor = 4});
   View view = look(inside, {3, 5, 22}, {0, 0, 0}, {200, 140});
   view.near_cut = 21.0;
-  check(inside, view, {.least_hits = 0.05, .most_ambiguous = 0.05, .normal_factor = 8});
+  check(inside, view, {.least_hits = 0.05, .most_ambiguous = 0.05});
   const glm::dmat4 mirror = glm::scale(glm::dmat4(1.0), glm::dvec3(1, -1, 1)), uneven = glm::translate(glm::dmat4(1.0), glm::dvec3(7, 0, 0)) * glm::scale(glm::dmat4(1.0), glm::dvec3(-1.4, 1, 0.5));
   const Scene placed_ = placed(glyph_scene("polyline", walks(15, 3, 0.3, 5)), {mirror, uneven});
-  check(placed_, look(placed_, {4, 5, 28}, {3, 0, 0}, {200, 140}), {.least_hits = 0.03, .most_ambiguous = 0.03, .normal_factor = 16});
+  check(placed_, look(placed_, {4, 5, 28}, {3, 0, 0}, {200, 140}), {.least_hits = 0.03, .most_ambiguous = 0.03, .normal_factor = 2});
   std::vector<Glyph> far = walks(30, 5, 0.3);
   const glm::dvec3 o(1e6, -1e6, 1e6);
   for (Glyph& g : far) g.center += o;
   const Scene away = glyph_scene("polyline", far);
-  check(away, look(away, o + glm::dvec3(5, 8, 22), o, {200, 140}), {.least_hits = 0.05, .most_ambiguous = 0.03, .normal_factor = 8});
+  check(away, look(away, o + glm::dvec3(5, 8, 22), o, {200, 140}), {.least_hits = 0.05, .most_ambiguous = 0.03});
 }
 
 // The cuts take nothing away: the same segments as whole capsules show the same surface at every pixel.

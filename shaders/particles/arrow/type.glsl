@@ -60,32 +60,26 @@ Proxy proxy(Particle p) {
   return hull_proxy(parts, z_min, p.center, p.bound);
 }
 
-// Parts: 0 and 1 the shaft's side and discs, 2 and 3 those of the head.
 bool intersect(Ray ray, Particle p, out Interval hit) {
   OwnRay own = own_ray(ray, p.center, p.rest);
   Axis axis = axis_of(p.h);
-  AxialRay r = axial(own, axis.u);
+  AxialRay r = axial(own, axis);
   float base = base_of(p, axis);
-  vec4 shaft = inside_frustum(r, p.shaft, 0.0, 0.0, -axis.half_length, base);
-  vec4 head = inside_frustum(r, p.head, slope_of(p), base, base, axis.half_length);
-  bool on_shaft = shaft.x <= shaft.y, on_head = head.x <= head.y;
-  bool in_head = on_head && (!on_shaft || head.x <= shaft.x), out_head = on_head && (!on_shaft || head.y >= shaft.y);
-  vec2 s = vec2(in_head ? head.x : shaft.x, out_head ? head.y : shaft.y);
+  FrustumStretch shaft = inside_frustum(r, axis.u, p.shaft, 0.0, 0.0, -axis.half_length, base);
+  FrustumStretch head = inside_frustum(r, axis.u, p.head, slope_of(p), base, base, axis.half_length);
+  bool on_shaft = shaft.s.x <= shaft.s.y, on_head = head.s.x <= head.s.y;
+  bool in_head = on_head && (!on_shaft || head.s.x <= shaft.s.x), out_head = on_head && (!on_shaft || head.s.y >= shaft.s.y);
+  vec2 s = vec2(in_head ? head.s.x : shaft.s.x, out_head ? head.s.y : shaft.s.y);
   bool met = on_shaft || on_head;
-  hit = interval_of(own, met ? s : vec2(0.0), vec2(in_head ? 2.0 + head.z : shaft.z, out_head ? 2.0 + head.w : shaft.w));
+  hit = interval_of(own, met ? s : vec2(0.0), in_head ? head.first : shaft.first, out_head ? head.last : shaft.last, vec2(0.0));
   return met;
 }
-
-vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) {
-  float part = exit ? hit.ends.w : hit.ends.z;
-  bool head = part >= 2.0;
-  return normal_from_own(frustum_normal(interval_point(ray, hit, exit), to_own(ray.direction), axis_of(p.h).u, head ? slope_of(p) : 0.0, part == 1.0 || part == 3.0, exit));
-}
+vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) { return normal_from_own(exit ? hit.ends.xyz : hit.local.xyz); }
 
 bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
   OwnRay own = own_ray(ray, p.center, p.rest);
   Axis axis = axis_of(p.h);
-  return max(p.shaft, p.head) < radius && distance_to_axis(own, axial(own, axis.u), axis.u, -axis.half_length, axis.half_length) < radius;
+  return max(p.shaft, p.head) < radius && distance_to_axis(own, axial(own, axis), axis.u, -axis.half_length, axis.half_length) < radius;
 }
 Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return sampled_outline(intersect(ray, p, again)); }
 
@@ -120,8 +114,10 @@ bool tile_nearer(TileTest s, float x, float y, inout float key) {
 }
 
 vec3 normal_at(Ray ray, Particle p, float t) {
-  Interval hit;
-  intersect(ray, p, hit);
-  return outward_normal(ray, p, hit, false);
+  Axis axis = axis_of(p.h);
+  vec3 q = own_point(ray, p.center, t);
+  float base = base_of(p, axis);
+  vec4 shaft = nearest_face(q, axis.u, p.shaft, 0.0, 0.0, -axis.half_length, base), head = nearest_face(q, axis.u, p.head, slope_of(p), base, base, axis.half_length);
+  return normal_from_own(shaft.w < head.w ? shaft.xyz : head.xyz);
 }
 #endif

@@ -61,26 +61,18 @@ OwnRay ray_of(Ray ray, Particle p) {
 bool intersect(Ray ray, Particle p, out Interval hit) {
   OwnRay own = ray_of(ray, p);
   Axis axis = axis_of(p.h);
-  AxialRay r = axial(own, axis.u);
-  vec2 s = both(inside_round(r, p.radius, 0.0, 0.0), between(r, -axis.half_length, axis.half_length));
-  s = joined(s, inside_ball(own, r, axis.u, -axis.half_length, p.radius));
-  s = joined(s, inside_ball(own, r, axis.u, axis.half_length, p.radius));
-  bool met = s.x <= s.y;
-  hit = interval_of(own, met ? s : vec2(0.0), vec2(0.0));
+  Stretch in_ = inside_capsule(own, axial(own, axis), axis, p.h, p.radius);
+  bool met = in_.s.x <= in_.s.y;
+  hit = interval_of(own, met ? in_.s : vec2(0.0), in_.first, in_.last, vec2(0.0));
   return met;
 }
+vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) { return normal_from_own(exit ? hit.ends.xyz : hit.local.xyz); }
 
-// From the point of the segment that is nearest to q.
-vec3 capsule_normal(vec3 q, vec3 h, float radius) {
-  Axis axis = axis_of(h);
-  return normal_from_own((q - clamp(dot(q, axis.u), -axis.half_length, axis.half_length) * axis.u) / radius);
-}
-vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) { return capsule_normal(interval_point(ray, hit, exit), p.h, p.radius); }
 
 bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
   OwnRay own = ray_of(ray, p);
   Axis axis = axis_of(p.h);
-  return p.radius < radius && distance_to_axis(own, axial(own, axis.u), axis.u, -axis.half_length, axis.half_length) < radius;
+  return p.radius < radius && distance_to_axis(own, axial(own, axis), axis.u, -axis.half_length, axis.half_length) < radius;
 }
 Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return sampled_outline(intersect(ray, p, again)); }
 

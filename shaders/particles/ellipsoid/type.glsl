@@ -2,6 +2,7 @@
 // Particle type `ellipsoid`: record of oriented.glsl with the semi-axes. Formulas: method book, sections 3.5 (shift in own
 // space, then rotate and scale, then shift again where it is the unit sphere) and 4.1 (bounds of affine balls).
 const int record_vec4s = 3;
+#define FINE_AXES
 #include "particles/oriented.glsl"
 
 bool drawable(Particle p) { return least(p.size) > 0.0; }
@@ -22,8 +23,10 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
 
 // From the local hit point.
 vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) {
-  vec3 d = (to_own(ray.direction) * axes_of(p)) / p.size;
-  return normal_from_unit(hit.local.xyz + (exit ? hit.local.w : -hit.local.w) * d, p);
+  FineAxes fine = fine_axes(p.x, p.y, p.turn);
+  vec3 d = in_axes(to_own(ray.direction), vec3(0.0), fine) / p.size;
+  vec3 gradient = hit.local.xyz + (exit ? hit.local.w : -hit.local.w) * d;
+  return normal_from_own((fine.high + fine.low) * (gradient * (least(p.size) / p.size)));
 }
 
 // The distance to the surface point behind the nearest one: never less than the true one.

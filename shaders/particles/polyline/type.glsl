@@ -74,30 +74,22 @@ void cut_by(vec3 f, vec3 d, vec3 at, vec3 n, float radius, inout vec2 s, inout v
 bool intersect(Ray ray, Particle p, out Interval hit) {
   OwnRay own = own_ray(ray, p.center, p.rest);
   Axis axis = axis_of(p.h);
-  AxialRay r = axial(own, axis.u);
-  vec2 s = both(inside_round(r, p.radius, 0.0, 0.0), between(r, -axis.half_length, axis.half_length)), inner = vec2(0.0);
-  s = joined(s, inside_ball(own, r, axis.u, -axis.half_length, p.radius));
-  s = joined(s, inside_ball(own, r, axis.u, axis.half_length, p.radius));
-  vec2 whole = s;
+  Stretch in_ = inside_capsule(own, axial(own, axis), axis, p.h, p.radius);
+  vec2 s = in_.s, whole = s, inner = vec2(0.0);
   if (s.x <= s.y) cut_by(own.f, own.d, p.h, p.high, p.radius, s, inner);
   if (s.x <= s.y) cut_by(own.f, own.d, -p.h, -p.low, p.radius, s, inner);
   bool met = s.x <= s.y;
-  hit = interval_of(own, met ? s : whole.x <= whole.y ? vec2(whole.x) : vec2(0.0), inner);
+  hit = interval_of(own, met ? s : whole.x <= whole.y ? vec2(whole.x) : vec2(0.0), in_.first, in_.last, inner);
   return met;
 }
-bool inner_end(Interval hit, bool exit) { return (exit ? hit.ends.w : hit.ends.z) > 0.0; }
+bool inner_end(Interval hit, bool exit) { return (exit ? hit.ends.w : hit.local.w) > 0.0; }
+vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) { return normal_from_own(exit ? hit.ends.xyz : hit.local.xyz); }
 
-// From the point of the segment that is nearest to q.
-vec3 segment_normal(vec3 q, vec3 h, float radius) {
-  Axis axis = axis_of(h);
-  return normal_from_own((q - clamp(dot(q, axis.u), -axis.half_length, axis.half_length) * axis.u) / radius);
-}
-vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) { return segment_normal(interval_point(ray, hit, exit), p.h, p.radius); }
 
 bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
   OwnRay own = own_ray(ray, p.center, p.rest);
   Axis axis = axis_of(p.h);
-  return p.radius < radius && distance_to_axis(own, axial(own, axis.u), axis.u, -axis.half_length, axis.half_length) < radius;
+  return p.radius < radius && distance_to_axis(own, axial(own, axis), axis.u, -axis.half_length, axis.half_length) < radius;
 }
 Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return sampled_outline(intersect(ray, p, again)); }
 
@@ -145,5 +137,5 @@ bool tile_nearer(TileTest s, float x, float y, inout float key) {
   return nearer;
 }
 
-vec3 normal_at(Ray ray, Particle p, float t) { return segment_normal(own_point(ray, p.center, t), p.h, p.radius); }
+vec3 normal_at(Ray ray, Particle p, float t) { return capsule_normal(own_point(ray, p.center, t), p.h, p.radius); }
 #endif
