@@ -16,7 +16,8 @@ bool segment_touches(vec3 center, vec3 h, float radius, vec2 middle, float reach
   vec2 along = q - p, to = middle - p;
   float t = clamp(dot(to, along) / max(dot(along, along), 1e-30), 0.0, 1.0);
   vec2 away = to - t * along;
-  float far_enough = (round_ + reach) * 1.001 + 1e-5 * length(middle);
+  float rounding = 1e-6 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y)); // ends beside the eye lie far out
+  float far_enough = (round_ + reach) * 1.001 + rounding + 1e-5 * length(middle);
   return dot(away, away) <= far_enough * far_enough || (!orthographic && z <= 2.0 * r);
 }
 

@@ -165,6 +165,23 @@ TEST_P(Axial, EyeInside) {
   check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.9, .depth_factor = 3});
 }
 
+// Long, thin and slanting: of the tiles of their rectangles they touch few, and all that they touch show them.
+TEST_P(Axial, LongOnesAcrossThePicture) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> u(-1, 1);
+  std::vector<Glyph> glyphs;
+  for (int i = 0; i < 150; ++i) glyphs.push_back(axial(GetParam(), {4 * u(random), 4 * u(random), 10 * u(random)}, {12 * u(random), 12 * u(random), 9 * u(random)}, 0.02 + 0.02 * u(random)));
+  glyphs.push_back(axial(GetParam(), {-8, 0.1, 11}, {8, 0.1, 11}, 0.05)); // from beside the eye to far behind
+  const Scene scene = glyph_scene(type_of(GetParam()), glyphs);
+  for (const View& view : {look(scene, {0, 0.3, 24}, {0, 0, 0}, {200, 120}, 60), look_orthographic(scene, {3, 2, 30}, {0, 0, 0}, {200, 120}, 16)}) {
+    const Picture quads = draw(scene, view, {.expansion = passes::Expansion::Vertex}), tiles = draw(scene, view, {.expansion = passes::Expansion::Compute});
+    expect_equals_reference(tiles, scene, view, {.least_hits = 0.04, .most_ambiguous = 0.1, .depth_factor = 1000, .normal_factor = 3e5, .colors_off = 0.02});
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < quads.id.size(); ++i) missing += (quads.id[i] == 0xFFFFFFFFu) != (tiles.id[i] == 0xFFFFFFFFu);
+    EXPECT_LE(missing, 5u);
+  }
+}
+
 TEST_P(Axial, NearAndFarCut) {
   const Scene scene = cloud_scene({1500, 10, 0.05, 1.0});
   View view = look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200});
