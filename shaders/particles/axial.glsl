@@ -87,7 +87,7 @@ Stretch inside_round(AxialRay r, float radius, float slope, float z0) {
   return closed;
 }
 
-// Within the ball around z h / |h|, h as it came.
+// Within the ball around a center, both in own space.
 Stretch inside_ball(OwnRay ray, vec3 center, float radius) {
   vec3 f, rest, l;
   two_sum(ray.f, -center, f, rest);

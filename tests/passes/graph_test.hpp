@@ -6,6 +6,8 @@
 #include "harness.hpp"
 #include "render_graph/compile.hpp"
 
+#include <fmt/format.h>
+
 namespace mote::test {
 
 // Scene-linear RGBA of one source, and its size.
@@ -18,8 +20,9 @@ struct Colors {
   [[nodiscard]] glm::vec4 center() const { return at(size.width / 2, size.height / 2); }
 };
 
-// Opaque particles, then transparent ones in exact order.
-inline constexpr const char* exact_glyphs = R"(schema = 1
+// Opaque particles, then transparent ones with the parameters given; `draw`: a line of the transparent pass.
+inline std::string glyphs_over_opaque(const std::string& params, const std::string& draw = "") {
+  return fmt::format(R"(schema = 1
 output = "glyphs.color"
 [[pass]]
 name = "opaque"
@@ -27,9 +30,13 @@ kind = "opaque_impostors"
 [[pass]]
 name = "glyphs"
 kind = "sorted_glyphs"
-inputs = { color = "opaque.color", depth = "opaque.depth" }
-params = { oit = "exact" }
-)";
+inputs = {{ color = "opaque.color", depth = "opaque.depth" }}
+{}
+{}
+)",
+                     draw, params.empty() ? "" : "params = { " + params + " }");
+}
+inline const std::string exact_glyphs = glyphs_over_opaque("oit = \"exact\"");
 
 class GraphTest : public GpuTest {
 protected:

@@ -263,7 +263,7 @@ TEST_P(Samples, WithShadows) {
   const View camera = look(scene, {0, 12, 12}, {0, 2, 0}, {120, 120});
   const auto area = render_reference_area(reference::build_world(scene), camera, 16);
   for (const std::string method : {"ids", "depth"}) {
-    const Picture p = draw(scene, camera, {}, {"opaque.samples=16", "shadow.size=2048", "shadow.method=\"" + method + "\""});
+    const Picture p = draw(scene, camera, {}, {"opaque.samples=16", method == "ids" ? "shadow.size=1024" : "shadow.size=2048", "shadow.method=\"" + method + "\""});
     double sum = 0;
     for (std::size_t i = 0; i < area.size(); ++i) sum += std::pow(p.color[i].g - area[i].g, 2);
     EXPECT_LE(std::sqrt(sum / static_cast<double>(area.size())), method == "ids" ? 0.006 : 0.012) << method;

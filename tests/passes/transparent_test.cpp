@@ -17,22 +17,6 @@ using ::testing::HasSubstr;
 
 const glm::dvec3 red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
 
-// Opaque particles, then transparent ones with the parameters given.
-std::string graph_with(const std::string& params, const std::string& draw = "") {
-  return fmt::format(R"(schema = 1
-output = "glyphs.color"
-[[pass]]
-name = "opaque"
-kind = "opaque_impostors"
-[[pass]]
-name = "glyphs"
-kind = "sorted_glyphs"
-inputs = {{ color = "opaque.color", depth = "opaque.depth" }}
-{}
-{}
-)",
-                     draw, params.empty() ? "" : "params = { " + params + " }");
-}
 // The transparent pass alone, for all particles.
 std::string alone(const std::string& params) {
   return fmt::format("schema = 1\noutput = \"glyphs.color\"\n[[pass]]\nname = \"glyphs\"\nkind = \"sorted_glyphs\"\ndraw = [\"all\"]\nparams = {{ {} }}\n", params);
@@ -50,7 +34,7 @@ protected:
   Colors draw(const Scene& scene, const std::string& graph, const passes::FrameOptions& options = {}) {
     return draw_graph(scene, view(scene), graph, "glyphs.color", options);
   }
-  glm::vec4 center(const Scene& scene, const std::string& params) { return draw(scene, graph_with(params)).center(); }
+  glm::vec4 center(const Scene& scene, const std::string& params) { return draw(scene, glyphs_over_opaque(params)).center(); }
 };
 
 const std::vector<std::string> ordered{"order = \"back_to_front\"", "order = \"front_to_back\"", "oit = \"exact\""};
@@ -83,7 +67,7 @@ TEST_F(Transparent, TwoStackedGlyphsInBothOrders) {
         expect_color(center(scene, fmt::format("{}, surfaces = \"{}\"", order, surfaces)), wanted);
       }
     for (const std::string& order : ordered)
-      expect_color(draw(scene, graph_with(order), {.expansion = passes::Expansion::Geometry}).center(), wanted);
+      expect_color(draw(scene, glyphs_over_opaque(order), {.expansion = passes::Expansion::Geometry}).center(), wanted);
   }
 }
 
@@ -114,7 +98,7 @@ TEST_F(Transparent, EllipsoidsBesideSpheres) {
   for (const std::string& order : ordered)
     for (const passes::Expansion expansion : {passes::Expansion::Vertex, passes::Expansion::Geometry}) {
       SCOPED_TRACE(order);
-      const Colors colors = draw(scene, graph_with(order), {.expansion = expansion});
+      const Colors colors = draw(scene, glyphs_over_opaque(order), {.expansion = expansion});
       expect_color(colors.center(), {0.25, 0.5, 0});
       expect_color(colors.at(4, 32), {0.5, 0, 0}); // 2.3 to the left
       expect_color(colors.at(32, 10), {0, 0, 0});  // 1.8 above
@@ -163,7 +147,7 @@ TEST_F(Transparent, BackgroundsThatAreNotOpaque) {
     const glm::dvec3 wanted = (0.5 * red + 0.25 * green + 0.25 * b * blue) / alpha;
     for (const std::string& order : ordered) {
       SCOPED_TRACE(order);
-      const Colors colors = draw(scene, graph_with(order));
+      const Colors colors = draw(scene, glyphs_over_opaque(order));
       expect_color(colors.center(), wanted);
       EXPECT_NEAR(colors.center().a, alpha, 1e-3);
       expect_color(colors.at(0, 0), blue);
@@ -209,7 +193,7 @@ TEST_F(Transparent, OneOrderOverBatchesThatDiffer) {
 
 TEST_F(Transparent, WithoutTransparentParticlesThePassIsIdle) {
   const Scene scene = flat_sphere({0, 0, 0, 1}, green);
-  const Colors colors = draw(scene, graph_with(""));
+  const Colors colors = draw(scene, glyphs_over_opaque(""));
   EXPECT_THAT(colors.ran, ElementsAre("opaque"));
   expect_color(colors.center(), green);
 }
@@ -220,8 +204,8 @@ TEST_F(Transparent, ExactInStripsOfBoundedMemory) {
   for (int i = 0; i < 40; ++i) layers.push_back(flat_sphere({0, 0, 0.1 * i - 2, 3}, {0.02 * i, 1 - 0.02 * i, 0.5}, 0.05));
   Scene scene = join(layers);
   const View large = look(scene, {0, 0, 10}, {0, 0, 0}, {256, 256});
-  const Colors roomy = draw_graph(scene, large, graph_with("oit = \"exact\", memory = 128"), "glyphs.color");
-  const Colors tight = draw_graph(scene, large, graph_with("oit = \"exact\", memory = 1"), "glyphs.color");
+  const Colors roomy = draw_graph(scene, large, glyphs_over_opaque("oit = \"exact\", memory = 128"), "glyphs.color");
+  const Colors tight = draw_graph(scene, large, glyphs_over_opaque("oit = \"exact\", memory = 1"), "glyphs.color");
   EXPECT_TRUE(roomy.report.empty()) << to_string(roomy.report);
   EXPECT_TRUE(tight.report.empty()) << to_string(tight.report);
   EXPECT_EQ(roomy.texels, tight.texels);
@@ -233,13 +217,13 @@ TEST_F(Transparent, OverflowIsReportedWithWhatWasNeeded) {
   Scene scene = scene_of(spheres);
   scene.batches[0].alpha = 0.01;
   const View wide = look_orthographic(scene, {0, 0, 10}, {0, 0, 0}, {512, 16}, 0.2);
-  const Colors colors = draw_graph(scene, wide, graph_with("oit = \"exact\", memory = 1"), "glyphs.color");
+  const Colors colors = draw_graph(scene, wide, glyphs_over_opaque("oit = \"exact\", memory = 1"), "glyphs.color");
   const std::string text = to_string(colors.report);
   EXPECT_THAT(text, HasSubstr("warning P005"));
   EXPECT_THAT(text, HasSubstr("pass 'glyphs' left out"));
   EXPECT_THAT(text, HasSubstr("one row needs 64000"));
   EXPECT_THAT(text, HasSubstr("memory = 2 (MiB)"));
-  const Colors enough = draw_graph(scene, wide, graph_with("oit = \"exact\", memory = 2"), "glyphs.color");
+  const Colors enough = draw_graph(scene, wide, glyphs_over_opaque("oit = \"exact\", memory = 2"), "glyphs.color");
   EXPECT_TRUE(enough.report.empty()) << to_string(enough.report);
   EXPECT_NEAR(enough.center().a, 1.0, 1e-3);
 }
@@ -264,7 +248,7 @@ protected:
   // The largest difference over all pixels that are not ambiguous, in steps of 255.
   void expect_equal(const Scene& scene, const View& view, const std::string& params, double bar, bool two_surfaces = true) {
     const ReferencePicture reference = render_reference(scene, view, {.two_surfaces = two_surfaces});
-    const Colors colors = draw_graph(scene, view, graph_with(params), "glyphs.color");
+    const Colors colors = draw_graph(scene, view, glyphs_over_opaque(params), "glyphs.color");
     double worst = 0, mean = 0;
     std::size_t ambiguous = 0, beyond = 0, at = 0;
     for (std::size_t i = 0; i < reference.color.size(); ++i) {
@@ -324,7 +308,7 @@ TEST_F(TransparentReference, SortedIsExactForDisjointSpheres) {
 
 TEST_F(Transparent, ParametersThatDoNotGoTogether) {
   const auto expect_error = [](const std::string& params, const std::string& code, const std::vector<std::string>& words) {
-    const Diagnostics diagnostics = check_graph(graph_with(params));
+    const Diagnostics diagnostics = check_graph(glyphs_over_opaque(params));
     ASSERT_TRUE(diagnostics.has_errors()) << params;
     for (const std::string& word : words) EXPECT_THAT(to_string(diagnostics), HasSubstr(word));
     EXPECT_THAT(to_string(diagnostics), HasSubstr("error " + code));
@@ -337,7 +321,7 @@ TEST_F(Transparent, ParametersThatDoNotGoTogether) {
   expect_error("oit = \"peeling\"", "G023", {"none, weighted, exact"});
   expect_error("surfaces = \"back\"", "G023", {"both, front"});
   expect_error("memory = 0", "G022", {"memory"});
-  const Diagnostics draw = check_graph(graph_with("", "draw = [\"opaqe\"]"));
+  const Diagnostics draw = check_graph(glyphs_over_opaque("", "draw = [\"opaqe\"]"));
   EXPECT_THAT(to_string(draw), HasSubstr("error G031"));
   EXPECT_THAT(to_string(draw), HasSubstr("Did you mean 'opaque'?"));
 }

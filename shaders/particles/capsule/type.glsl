@@ -68,7 +68,6 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
 }
 vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) { return normal_from_own(exit ? hit.ends.xyz : hit.local.xyz); }
 
-
 bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
   OwnRay own = ray_of(ray, p);
   Axis axis = axis_of(p.h);
