@@ -74,12 +74,18 @@ const gpu::ComputePipeline& TileKernels::kernel(const std::string& name) {
   return pipeline;
 }
 
-const gpu::ComputePipeline& TileKernels::place(const ParticlePipelineKey& key, bool first_round, bool first_slice) {
-  if (auto it = places_.find({key, first_round, first_slice}); it != places_.end()) return it->second;
+const gpu::ComputePipeline& TileKernels::place(const ParticlePipelineKey& key, bool untested, bool first_slice) {
+  if (auto it = places_.find({key, untested, first_slice}); it != places_.end()) return it->second;
   const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(4, key.per_particle_color), gpu::spec(7, key.proxy_slack), gpu::spec(11, (key.aovs & aov_id_bit) != 0),
-                             gpu::spec(12, first_round), gpu::spec(17, first_slice)};
+                             gpu::spec(12, untested), gpu::spec(17, first_slice)};
   const std::string shader = fmt::format("{}/tiles/place/{}/{}", key.type, lanes(device_), words_);
-  return places_.emplace(std::tuple(key, first_round, first_slice), make(shader, binning_pipelines_, constants)).first->second;
+  return places_.emplace(std::tuple(key, untested, first_slice), make(shader, binning_pipelines_, constants)).first->second;
+}
+
+const gpu::ComputePipeline& TileKernels::sift(const ParticlePipelineKey& key) {
+  if (auto it = sifts_.find(key); it != sifts_.end()) return it->second;
+  const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(7, key.proxy_slack)};
+  return sifts_.emplace(key, make(fmt::format("{}/tiles/sift/{}/{}", key.type, lanes(device_), words_), binning_pipelines_, constants)).first->second;
 }
 
 const gpu::ComputePipeline& TileKernels::splat(const ParticlePipelineKey& key, std::uint32_t side) {

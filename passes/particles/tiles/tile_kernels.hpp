@@ -2,7 +2,7 @@
 // Pipelines and layouts of the compute expansion's kernels, made when first asked for and kept.
 //
 // Sets: 0 the frame block; 1 the records of a slice (place) or what casting reads and writes (cast); 2 the
-// buffers of binning (cull, place, splat, allocate, scatter, far). resolve_splats and splat_far have a set 1 of their own.
+// buffers of binning (cull, sift, place, splat, allocate, scatter, far). resolve_splats and splat_far have a set 1 of their own.
 #pragma once
 
 #include "core/gpu/gpu.hpp"
@@ -37,7 +37,8 @@ public:
   [[nodiscard]] static bool splats(const gpu::Device& device, const std::string& type);
 
   [[nodiscard]] const gpu::ComputePipeline& kernel(const std::string& name); // "cull", "allocate", "scatter", "far"
-  [[nodiscard]] const gpu::ComputePipeline& place(const ParticlePipelineKey& key, bool first_round, bool first_slice);
+  [[nodiscard]] const gpu::ComputePipeline& place(const ParticlePipelineKey& key, bool untested, bool first_slice);
+  [[nodiscard]] const gpu::ComputePipeline& sift(const ParticlePipelineKey& key);
   // What a cast takes in besides, each may be null: the map that key.pixel_map names, the shadows of key.shadows. Their
   // shader is compiled now (P002) or comes from the cache.
   struct Besides {
@@ -71,6 +72,7 @@ private:
   gpu::PipelineLayout binning_pipelines_, cast_pipelines_, resolve_pipelines_, far_pipelines_;
   std::map<std::string, gpu::ComputePipeline> kernels_;
   std::map<std::tuple<ParticlePipelineKey, bool, bool>, gpu::ComputePipeline> places_;
+  std::map<ParticlePipelineKey, gpu::ComputePipeline> sifts_;
   std::map<std::pair<ParticlePipelineKey, std::uint32_t>, gpu::ComputePipeline> splats_;
   std::map<std::pair<bool, bool>, gpu::ComputePipeline> splat_fars_;
   std::map<std::pair<CastKey, Shading>, gpu::ComputePipeline> shadings_;

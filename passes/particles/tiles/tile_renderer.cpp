@@ -31,11 +31,12 @@ std::uint32_t words_of(gpu::TextureFormat format) {
 }
 
 // Uints of a step's arguments: a cursor; splat_words for each slice and side of splats; 4 for splat_far; then (x, y, z, total) for each slice, for
-// allocate, cast and scatter, each round. As in work.glsl.
+// allocate, cast and scatter, and for each slice's sift, each round. As in work.glsl.
 constexpr std::uint32_t splat_words = 8;
 std::uint32_t splat_far_start(std::size_t slices) { return 4u + splat_words * splat_sides * static_cast<std::uint32_t>(slices); }
 std::uint32_t rounds_start(std::size_t slices) { return splat_far_start(slices) + 4u; }
-std::uint32_t region_size(std::uint32_t rounds, std::size_t slices) { return rounds_start(slices) + rounds * 4u * (static_cast<std::uint32_t>(slices) + 3u); }
+std::uint32_t round_size(std::size_t slices) { return 4u * (2u * static_cast<std::uint32_t>(slices) + 3u); }
+std::uint32_t region_size(std::uint32_t rounds, std::size_t slices) { return rounds_start(slices) + rounds * round_size(slices); }
 
 std::vector<std::uint32_t> background_words(gpu::Color c, std::uint32_t words) {
   const glm::vec4 v(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a));
@@ -96,7 +97,7 @@ void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t he
   upload(buffers_.draws, "tiles.draws", std::as_bytes(std::span(view.draws)));
   upload(buffers_.materials, "tiles.materials", std::as_bytes(std::span(view.materials)));
   upload(buffers_.argument_template, "tiles.argument_template", std::as_bytes(std::span(arguments_)));
-  flags_fresh_ = reserve(buffers_.flags, "tiles.flags", view.flags * 4ull, Usage::Storage | Usage::CopyDst);
+  flags_fresh_ = reserve(buffers_.flags, "tiles.flags", view.flags * 8ull, Usage::Storage | Usage::CopyDst);
 }
 
 // Chunks that are drawn by splats go to a list of their slice and side.
@@ -113,7 +114,7 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   const std::uint64_t pixels = std::uint64_t{block_.width} * block_.height, places = std::uint64_t{plan_.list_capacity} * chunk_capacity;
   const std::uint64_t payload = find_particle_type(key.type)->vec4s_per_payload * sizeof(glm::vec4);
   const Usage storage = Usage::Storage | Usage::CopyDst | Usage::CopySrc;
-  reserve(b.lists, "tiles.lists", std::uint64_t{plan_.most_rounds()} * block_.slices * plan_.list_capacity * 4, storage);
+  reserve(b.lists, "tiles.lists", std::uint64_t{plan_.most_rounds()} * block_.slices * plan_.list_capacity * 16 + 16, storage);
   reserve(b.arguments, "tiles.arguments", arguments_.size() * 4, storage);
   reserve(b.indirect, "tiles.indirect", arguments_.size() * 4, Usage::Indirect | Usage::CopyDst);
   reserve(b.payloads, "tiles.payloads", places * payload, storage);
@@ -122,7 +123,7 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   // Counts are left at zero by the casts before, unless they are counted elsewhere now: in a picture of another size.
   tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 12ull, storage) || tiles_of_ != plan_.level1 || tiles_fresh_;
   tiles_of_ = plan_.level1;
-  reserve(b.far, "tiles.far", plan_.cells * 4ull, storage);
+  reserve(b.far, "tiles.far", (plan_.cells + 3ull * plan_.level1) * 4, storage);
   reserve(b.active, "tiles.active", plan_.level1 * 4ull, storage);
   reserve(b.entries, "tiles.entries", (std::uint64_t{plan_.level1} * plan_.tile_room + 3ull * plan_.most_entries) * 4, storage);
   reserve(b.nearest, "tiles.nearest", pixels * 4, storage);
@@ -209,7 +210,9 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
   block.first = step.first;
   block.count = step.count;
   block.region = regions_[index];
-  block.others = step.others ? 1u : 0u;
+  const bool sifted = step.others && !flags_fresh_;
+  const std::uint32_t others = (step.others ? 1u : 0u) | anew_ << 2 | (sifted ? 32u : 0u);
+  block.others = others;
   auto groups = [](std::uint32_t invocations) { return (invocations + workgroup - 1) / workgroup; };
   auto begin = [&](gpu::ComputePass& pass, const gpu::ComputePipeline& pipeline) {
     pass.set_pipeline(pipeline);
@@ -218,7 +221,7 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
     pass.set_bind_group(2, binning_group_);
     pass.set_push_constants(0, std::as_bytes(std::span(&block, 1)));
   };
-  auto offset = [&](std::uint32_t round, std::uint32_t slot) { return (block.region + rounds_start(slices) + (round * (slices + 3u) + slot) * 4u) * 4ull; };
+  auto offset = [&](std::uint32_t round, std::uint32_t slot) { return (block.region + rounds_start(slices) + round * round_size(slices) + slot * 4u) * 4ull; };
 
   gpu::ComputePass cull = encoder.begin_compute_pass({.label = "tiles.cull"});
   begin(cull, kernels_.kernel("cull"));
@@ -228,19 +231,31 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
   encoder.copy_buffer_to_buffer(buffers_.arguments, block.region * 4ull, buffers_.indirect, block.region * 4ull, region_size(step.rounds, slices) * 4ull);
   record_splats(encoder, block, frame_group, placed, mark);
   const bool tiles = plan_.splats < view.chunks.size();
+  if (tiles && sifted) {
+    gpu::ComputePass sift = encoder.begin_compute_pass({.label = "tiles.sift"});
+    for (block.round = 0; block.round < step.rounds; ++block.round)
+      for (block.slice = 0; block.slice < slices; ++block.slice) {
+        begin(sift, kernels_.sift(placed));
+        sift.dispatch_indirect(buffers_.indirect, offset(block.round, slices + 3 + block.slice));
+      }
+    block.slice = 0;
+    sift.end();
+    mark("sift");
+    encoder.copy_buffer_to_buffer(buffers_.arguments, offset(0, 0), buffers_.indirect, offset(0, 0), step.rounds * round_size(slices) * 4ull);
+  }
   for (std::uint32_t round = 0; tiles && round < step.rounds; ++round) {
     block.round = round;
-    block.others = (step.others ? 1u : 0u) | (first_ && round == 0 ? 0u : 2u);
+    block.others = others | (first_ && round == 0 ? 0u : 2u);
     gpu::ComputePass place = encoder.begin_compute_pass({.label = "tiles.place"});
     for (block.slice = 0; block.slice < slices; ++block.slice) {
-      begin(place, kernels_.place(placed, first_ && round == 0, block.slice == 0));
+      begin(place, kernels_.place(placed, !step.others || sifted || (first_ && round == 0), block.slice == 0));
       place.dispatch_indirect(buffers_.indirect, offset(round, block.slice));
     }
     block.slice = 0;
     begin(place, kernels_.kernel("allocate"));
     place.dispatch_indirect(buffers_.indirect, offset(round, slices));
     place.end();
-    mark("place");
+    mark(step.others ? "place others" : "place");
     encoder.copy_buffer_to_buffer(buffers_.arguments, offset(round, slices + 1), buffers_.indirect, offset(round, slices + 1), 32);
     gpu::ComputePass cast = encoder.begin_compute_pass({.label = "tiles.cast"});
     begin(cast, kernels_.kernel("scatter"));
@@ -262,7 +277,7 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
   record_splat_far(encoder, block, frame_group, placed.orthographic, mark);
   gpu::ComputePass far = encoder.begin_compute_pass({.label = "tiles.far"});
   begin(far, kernels_.kernel("far"));
-  far.dispatch(groups(plan_.cells - plan_.level1));
+  far.dispatch(groups(plan_.cells));
   far.end();
   mark("far");
 }
@@ -348,6 +363,7 @@ void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, c
   clear(encoder, targets);
   mark("clear");
   first_ = true;
+  anew_ = (anew_ + 1) % 8;
   for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
     if (flags_fresh_ && !plan_.steps[i].others) continue; // nothing was seen before
     record_step(encoder, i, view, frame_group, key, targets, mark);

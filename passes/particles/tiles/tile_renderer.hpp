@@ -80,6 +80,7 @@ private:
   std::uint32_t color_words_{2};
   bool first_{}; // nothing was cast before in the frame that is being recorded
   bool flags_fresh_{}, tiles_fresh_{true};
+  std::uint32_t anew_{}; // which chunks look anew at what is seen of them, of 8
   std::uint32_t tiles_of_{}; // how many tiles the buffer of tiles was laid out for: its parts lie elsewhere for another number
 };
 

@@ -21,7 +21,7 @@
 layout(local_size_x = LANES) in;
 const int pixels = 64 / LANES; // of one invocation
 
-layout(std430, set = 1, binding = 1) readonly buffer Payloads { PAIR payloads[]; };
+layout(std430, set = 1, binding = 1) readonly buffer Payloads { uvec4 payloads[]; };
 layout(std430, set = 1, binding = 2) readonly buffer Colors { PAIR placed_colors[]; };
 layout(std430, set = 1, binding = 3) readonly buffer Ids { uint placed_ids[]; };
 layout(std430, set = 1, binding = 4) readonly buffer Tiles { uint tiles[]; };
@@ -105,10 +105,7 @@ float farthest_depth(float farthest_key, float least_ray2) {
 
 Particle load_particle(uint at) {
   vec4 payload[payload_vec4s];
-  for (int i = 0; i < payload_vec4s; ++i) {
-    uint from = 2u * (at * uint(payload_vec4s) + uint(i));
-    payload[i] = uintBitsToFloat(uvec4(words(payloads[from]), words(payloads[from + 1u])));
-  }
+  for (int i = 0; i < payload_vec4s; ++i) payload[i] = uintBitsToFloat(payloads[at * uint(payload_vec4s) + uint(i)]);
   return unpack(payload);
 }
 

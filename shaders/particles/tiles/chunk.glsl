@@ -6,7 +6,7 @@
 
 #include "particles/tiles/binning.glsl"
 
-layout(std430, set = 1, binding = 0) readonly buffer Records { PAIR records[]; };
+layout(std430, set = 1, binding = 0) readonly buffer Records { uvec4 records[]; };
 layout(std430, set = 1, binding = 1) readonly buffer Rows { uint rows[]; };
 layout(std430, set = 1, binding = 2) readonly buffer FileColors { uint colors[]; };
 
@@ -26,6 +26,7 @@ struct Chunk {
   uvec2 rect_lo, rect_hi; // tiles
   uint first, place;      // of its records, and of its particles in the round (place.comp)
   uint id_base, material;
+  uint flag;              // where it keeps which of its particles were seen
   vec3 color;
   bool colored;
 };
@@ -39,6 +40,7 @@ Chunk load_chunk(uint at) {
   chunk.rect_lo = corner(w[4]);
   chunk.rect_hi = corner(w[5]);
   chunk.first = w[6] * chunk_capacity;
+  chunk.flag = w[6];
   uint draw = draw_of(w[7]);
   WORDS(draws, draw)
   chunk.at.linear[0] = uintBitsToFloat(uvec3(w[0], w[1], w[2]));
@@ -47,6 +49,7 @@ Chunk load_chunk(uint at) {
   chunk.id_base = w[7];
   WORDS(draws, draw + 8u)
   chunk.at.linear[2] = uintBitsToFloat(uvec3(w[0], w[1], w[2]));
+  chunk.flag += w[3];
   chunk.color = uintBitsToFloat(uvec3(w[4], w[5], w[6]));
   chunk.material = w[7] & 0xFFFFu;
   chunk.colored = (w[7] >> 31) != 0u;
@@ -56,10 +59,7 @@ Chunk load_chunk(uint at) {
 // Record `slot` of the slice.
 Particle place_record(uint slot, Placement at) {
   vec4 record[record_vec4s];
-  for (int i = 0; i < record_vec4s; ++i) {
-    uint from = 2u * (slot * uint(record_vec4s) + uint(i));
-    record[i] = uintBitsToFloat(uvec4(words(records[from]), words(records[from + 1u])));
-  }
+  for (int i = 0; i < record_vec4s; ++i) record[i] = uintBitsToFloat(records[slot * uint(record_vec4s) + uint(i)]);
   return place(record, at);
 }
 

@@ -1,27 +1,31 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Chooses the chunks of a step: those seen in the last frame, or the others that the depth so far does not hide.
+// Chooses the chunks of a step: those of which particles were seen, or those that the depth so far does not hide and that may
+// have others.
 // One invocation a placed chunk; they come front to back.
 #extension GL_GOOGLE_include_directive : require
 #include "particles/tiles/binning.glsl"
 
 layout(local_size_x = 64) in;
 
-uint level_of(uint span) { return span <= 4u ? 0u : span <= 16u ? 1u : span <= 64u ? 2u : 3u; }
+layout(std430, set = 2, binding = 0) readonly buffer ChunkQuads { uvec4 chunk_quads[]; };
 
 void main() {
   if (gl_GlobalInvocationID.x >= step.count) return;
   uint i = step.first + gl_GlobalInvocationID.x;
   float z_min = uintBitsToFloat(chunks[i * chunk_words + 3u]);
-  uint rect_lo = chunks[i * chunk_words + 4u], rect_hi = chunks[i * chunk_words + 5u];
-  uint last = chunks[i * chunk_words + 7u], draw = draw_of(last), side = splat_side(last);
+  uvec4 rest = chunk_quads[i * chunk_words / 4u + 1u];
+  uint rect_lo = rest.x, rect_hi = rest.y, draw = draw_of(rest.w), side = splat_side(rest.w);
   uvec2 lo = corner(rect_lo), hi = corner(rect_hi), span = hi - lo + 1u;
-  uint flag = draws[draw + 11u] + chunks[i * chunk_words + 6u];
-  bool before = flags[flag] != 0u, take = before;
+  uint flag = draws[draw + 11u] + rest.z;
+  uvec2 seen = words(flags[flag]);
+  bool before = (seen.x | seen.y) != 0u, take = before;
   if ((step.others & 1u) != 0u) {
-    bool now = z_min < farthest(lo, hi, level_of(max(span.x, span.y)));
-    flags[flag] = now ? 1u : 0u;
-    take = now && !before;
+    bool now = z_min < farthest(lo, hi, 4u);
+    bool more = side != 0u ? !before : (seen.x & seen.y) != 0xFFFFFFFFu || looks_anew(flag, step.others);
+    if (before && !now) flags[flag] = pair(uvec2(0u));
+    if (now && !before && side != 0u) flags[flag] = pair(uvec2(0xFFFFFFFFu)); // splats are seen as chunks
+    take = now && more;
   }
   if (!take) return;
   uint slice = (draws[draw + 15u] >> 16) & 0x7FFFu;
@@ -37,7 +41,7 @@ void main() {
   most = mix(min(most, span), span, equal(most, uvec2(255u)));
   uint start = atomicAdd(arguments[step.region], chunk_capacity * max(most.x * most.y, 4u));
   uint round = start / step.capacity;
-  uint place = atomicAdd(arguments[slice_arguments(round, slice)], 1u);
+  uint place = atomicAdd(arguments[sifted(step.others) ? sift_arguments(round, slice) : slice_arguments(round, slice)], 1u);
   lists[list_at(round, slice) + place] = i;
   atomicMax(arguments[allocate_arguments(round)], (step.tiles_x * step.tiles_y + 63u) / 64u);
 }

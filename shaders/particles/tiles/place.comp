@@ -1,17 +1,19 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Brings the particles of a round's chunks into view space and files them under the tiles they may cover.
-// One workgroup a chunk (chunk.glsl), every invocation takes one particle after the other.
+// One workgroup a chunk (chunk.glsl), every invocation takes one particle after the other, of those that the step is to draw.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "particles/interface.glsl"
 #include "particles/tiles/chunk.glsl"
+#include "particles/tiles/seen.glsl"
 
 layout(local_size_x = LANES) in;
 
 layout(constant_id = 11) const bool want_ids = false;
-layout(constant_id = 12) const bool first_round = false; // nothing was cast before in this frame
+layout(constant_id = 12) const bool untested = false; // nothing was cast before in this frame, or what was cast is known not to hide them
 layout(constant_id = 17) const bool first_slice = false;
 
 // Chunks of the same round in earlier slices: their particles come first.
@@ -24,45 +26,28 @@ uint chunks_before() {
 
 // Uniform values that every particle needs, taken once.
 struct Taken {
-  float focal;
-  vec2 offset, last_pixel;
+  Reach reach;
   uint tiles_x, room, list, spilled;
   float depth_origin, depth_scale;
 };
 Taken take() {
-  return Taken(frame.viewport.z, frame.sample_near_far.xy, vec2(float(step.width), float(step.height)) - 1.0, step.tiles_x,
-               step.tile_room, scatter_arguments(step.round) + 3u, step.spilled, step.depth_origin, step.depth_scale);
+  return Taken(take_reach(), step.tiles_x, step.tile_room, scatter_arguments(step.round) + 3u, step.spilled, step.depth_origin, step.depth_scale);
 }
 
-// The tiles whose pixel centers the proxy may cover, as (lo, hi); empty where lo.x > hi.x. A pixel's margin of 1/64.
-uvec4 tile_rect(Taken u, Proxy bounds) {
-  vec2 lo = bounds.lo * u.focal - u.offset - 0.02, hi = bounds.hi * u.focal - u.offset + 0.02;
-  vec2 first = max(ceil(lo), vec2(0.0)), last = min(floor(hi), u.last_pixel);
-  bool empty = !(first.x <= last.x && first.y <= last.y);
-  uvec2 tile_lo = uvec2(first) >> 3, tile_hi = uvec2(max(last, vec2(0.0))) >> 3;
-  return empty ? uvec4(1u, 1u, 0u, 0u) : uvec4(tile_lo, tile_hi);
-}
-
-uint level_of(uint span) { return span <= 2u ? 0u : span <= 8u ? 1u : span <= 32u ? 2u : 3u; }
-
-// Record `lane` of a chunk: placed, kept for the cast, and filed.
-void place_particle(Taken u, Chunk chunk, uint lane) {
+// Record `lane` of a chunk: placed, kept for the cast, and filed, if it is to be drawn. Is it not hidden?
+bool place_particle(Taken u, Chunk chunk, uint lane, bool valid) {
   uint slot = chunk.first + lane, at = chunk.place + lane;
   Particle particle = place_record(slot, chunk.at);
   Proxy bounds = tile_proxy(particle);
-  uvec4 rect = tile_rect(u, bounds);
+  uvec4 rect = tile_rect(u.reach, bounds);
   // What was reserved is the chunk's rectangle; rounding never leads out of it.
   uvec2 lo = max(rect.xy, chunk.rect_lo), hi = min(rect.zw, chunk.rect_hi);
-  bool some = drawable(particle) && rect.x <= rect.z && lo.x <= hi.x && lo.y <= hi.y;
-  if (some && !first_round) some = bounds.z_min < farthest(lo, hi, level_of(max(hi.x - lo.x, hi.y - lo.y) + 1u));
+  bool some = valid && drawable(particle) && rect.x <= rect.z && lo.x <= hi.x && lo.y <= hi.y;
+  if (some && !untested) some = bounds.z_min < farthest(lo, hi, 2u);
   if (some) {
     vec4 payload[payload_vec4s];
     pack(particle, payload);
-    for (int i = 0; i < payload_vec4s; ++i) {
-      uint to = 2u * (at * uint(payload_vec4s) + uint(i));
-      payloads[to] = pair(floatBitsToUint(payload[i].xy));
-      payloads[to + 1u] = pair(floatBitsToUint(payload[i].zw));
-    }
+    for (int i = 0; i < payload_vec4s; ++i) payloads[at * uint(payload_vec4s) + uint(i)] = floatBitsToUint(payload[i]);
     vec3 color = chunk.color;
     if (per_particle_color) color = chunk.colored ? unpack_color(colors[slot]).rgb : color;
     placed_colors[at] = pair(uvec2(packHalf2x16(color.rg), (packHalf2x16(vec2(color.b, 0.0)) & 0xFFFFu) | chunk.material << 16));
@@ -83,16 +68,24 @@ void place_particle(Taken u, Chunk chunk, uint lane) {
     bool wrap = tile.x == hi.x;
     tile = wrap ? uvec2(lo.x, tile.y + 1u) : uvec2(tile.x + 1u, tile.y);
   } while (tile.y <= hi.y);
+  return some;
 }
 
 void main() {
-  uint chunk_at = gl_WorkGroupID.x;
-  Chunk chunk = load_chunk(lists[list_at(step.round, step.slice) + chunk_at]);
-  chunk.place = (chunks_before() + chunk_at) * chunk_capacity;
+  // A chunk that was drawn before draws what was seen, one that was not all of it, a sifted one what sift has chosen.
+  bool others = (step.others & 1u) != 0u;
+  uint from = sifted(step.others) ? sifted_at(step.round, step.slice) + sifted_words * gl_WorkGroupID.x : list_at(step.round, step.slice) + gl_WorkGroupID.x;
+  uint own = lists[from + (gl_LocalInvocationID.x & 3u)];
+  Chunk chunk = load_chunk(subgroupShuffle(own, 0u));
+  chunk.place = (chunks_before() + gl_WorkGroupID.x) * chunk_capacity;
+  uvec2 these = uvec2(subgroupShuffle(own, 1u), subgroupShuffle(own, 2u)), kept = uvec2(0u);
+  if (!sifted(step.others)) these = others ? uvec2(0xFFFFFFFFu) : words(flags[chunk.flag]);
   Taken u = take();
-  uint lane = gl_LocalInvocationID.x;
+  uint count = uint(bitCount(these.x) + bitCount(these.y)), done = 0u;
   do {
-    place_particle(u, chunk, lane);
-    lane += uint(LANES);
-  } while (lane < chunk_capacity);
+    uint n = done + gl_LocalInvocationID.x, lane = bit_at(these, n);
+    if (place_particle(u, chunk, lane, n < count)) kept |= bit_of(lane);
+    done += uint(LANES);
+  } while (done < count);
+  if (others && !sifted(step.others)) keep_seen(chunk.flag, kept);
 }

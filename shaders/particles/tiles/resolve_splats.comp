@@ -14,39 +14,32 @@ layout(local_size_x = LANES) in;
 
 layout(constant_id = 20) const bool splats_only = false;        // nothing is cast in this frame, and there is one slice
 
-layout(std430, set = 1, binding = 1) readonly buffer Records { PAIR records[]; };
+layout(std430, set = 1, binding = 1) readonly buffer Records { uvec4 records[]; };
 layout(std430, set = 1, binding = 2) readonly buffer Rows { uint rows[]; };
 layout(std430, set = 1, binding = 3) readonly buffer FileColors { uint colors[]; };
-layout(std430, set = 1, binding = 4) readonly buffer Chunks { PAIR chunks[]; };
-layout(std430, set = 1, binding = 5) readonly buffer Draws { PAIR draws[]; };
+layout(std430, set = 1, binding = 4) readonly buffer Chunks { uvec4 chunks[]; };
+layout(std430, set = 1, binding = 5) readonly buffer Draws { uvec4 draws[]; };
 layout(std430, set = 1, binding = 6) readonly buffer Splats { PAIR splats[]; };
-
-vec2 pair_of_floats(PAIR pair) { return uintBitsToFloat(words(pair)); }
 
 // Particle `who` as splat.comp names it; `mine`: of the slice of this dispatch.
 Winner winner_at(uint who, out bool mine) {
-  uint chunk = (who / chunk_capacity) * (chunk_words / 2u);
-  uvec2 last = words(chunks[chunk + 3u]);
-  uint draw = draw_of(last.y) / 2u;
-  uvec2 flags = words(draws[draw + 7u]); // color b, material and slice
-  mine = splats_only || ((flags.y >> 16) & 0x7FFFu) == step.slice;
-  uint slot = mine ? last.x * chunk_capacity + who % chunk_capacity : 0u;
-  vec2 linear0_xy = pair_of_floats(draws[draw]), linear0_z_scale = pair_of_floats(draws[draw + 1u]), linear1_xy = pair_of_floats(draws[draw + 2u]);
-  uvec2 linear1_z_id = words(draws[draw + 3u]);
-  vec2 linear2_xy = pair_of_floats(draws[draw + 4u]), linear2_z = pair_of_floats(draws[draw + 5u]), color_rg = pair_of_floats(draws[draw + 6u]);
+  uint chunk = (who / chunk_capacity) * (chunk_words / 4u);
+  uvec4 first = chunks[chunk], last = chunks[chunk + 1u];
+  uint draw = draw_of(last.w) / 4u;
+  uvec4 flags = draws[draw + 3u]; // color, material and slice
+  mine = splats_only || ((flags.w >> 16) & 0x7FFFu) == step.slice;
+  uint slot = mine ? last.z * chunk_capacity + who % chunk_capacity : 0u;
+  uvec4 linear0_scale = draws[draw], linear1_id = draws[draw + 1u], linear2 = draws[draw + 2u];
   Placement at;
-  at.linear = mat3(linear0_xy, linear0_z_scale.x, linear1_xy, uintBitsToFloat(linear1_z_id.x), linear2_xy, linear2_z.x);
-  at.scale = linear0_z_scale.y;
-  at.origin = vec3(pair_of_floats(chunks[chunk]), pair_of_floats(chunks[chunk + 1u]).x);
+  at.linear = mat3(uintBitsToFloat(linear0_scale.xyz), uintBitsToFloat(linear1_id.xyz), uintBitsToFloat(linear2.xyz));
+  at.scale = uintBitsToFloat(linear0_scale.w);
+  at.origin = uintBitsToFloat(first.xyz);
   vec4 record[record_vec4s];
-  for (int i = 0; i < record_vec4s; ++i) {
-    uint from = 2u * (slot * uint(record_vec4s) + uint(i));
-    record[i] = vec4(pair_of_floats(records[from]), pair_of_floats(records[from + 1u]));
-  }
-  vec3 color = vec3(color_rg, uintBitsToFloat(flags.x));
-  if (per_particle_color) color = (flags.y >> 31) != 0u ? unpack_color(colors[slot]).rgb : color;
-  Winner winner = Winner(place(record, at), color, flags.y & 0xFFFFu, 0u);
-  if (want_id()) winner.id = linear1_z_id.y + rows[slot];
+  for (int i = 0; i < record_vec4s; ++i) record[i] = uintBitsToFloat(records[slot * uint(record_vec4s) + uint(i)]);
+  vec3 color = uintBitsToFloat(flags.xyz);
+  if (per_particle_color) color = (flags.w >> 31) != 0u ? unpack_color(colors[slot]).rgb : color;
+  Winner winner = Winner(place(record, at), color, flags.w & 0xFFFFu, 0u);
+  if (want_id()) winner.id = linear1_id.w + rows[slot];
   return winner;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Expansion `compute`: what its kernels share. Mirrors passes/particles/tiles/tile_blocks.hpp.
 //
-// A frame is a few *steps*. A step takes some of the placed chunks (cull), and in *rounds* whose memory is bounded
+// A frame is a few *steps*. A step takes some of the placed chunks (cull), of those that were drawn in part chooses the particles that
+// are still to be drawn (sift), and in *rounds* whose memory is bounded
 // by construction brings their particles into view space and files them under tiles of 8x8 pixels (place). A tile has
 // `tile_room` places of its own; what does not fit goes to a list, for which room is made (allocate) and which is filed in
 // a second go (scatter). Then each tile is cast (cast). Between steps the farthest depth of every tile, and of blocks of
@@ -31,8 +32,9 @@ const int tile_size = 8;
 // A CPU device gathers uniform values lane by lane at every use: loops take them into locals first.
 layout(push_constant) uniform StepBlock {
   uint first, count;        // placed chunks of this step
-  uint others;              // bit 0: not the chunks that were seen in the last frame but the rest, tested against the depth so far;
-                            // bit 1: something was cast before in this frame
+  uint others;              // bit 0: not the particles that were seen in frames before but the rest, tested against the depth so far;
+                            // bit 1: something was cast before in this frame; bits 2..4: chunks of which number look anew (looks_anew);
+                            // bit 5: what cull has chosen is sifted
   uint region;              // of this step's arguments, in uints: one cursor, then a block for each round
   uint round;
   uint slice, slices;       // buffers of records
@@ -61,6 +63,12 @@ const uint draw_words = 16u;
 uvec2 corner(uint packed_xy) { return uvec2(packed_xy & 0xFFFu, (packed_xy >> 12) & 0xFFFu); }
 uint pack_corner(uvec2 tile) { return tile.x | tile.y << 12; }
 
+// Which particles of a chunk were not hidden in frames before: a bit each. The first step of a frame draws those; the steps of the
+// others look at the rest of all chunks that are not hidden whole, draw what they find and keep its bit. Bits of what is hidden by now
+// go when the whole chunk is hidden, or when its number comes, every eighth frame: what was seen a moment ago may be seen again.
+const uint most_anew = 8u;
+bool looks_anew(uint flag, uint others) { return (flag & (most_anew - 1u)) == ((others >> 2) & (most_anew - 1u)); }
+
 uint draw_of(uint word) { return (word & 0x3FFFFFFFu) * draw_words; } // word 7 of a chunk: where its draw's words start
 uint splat_side(uint word) { return word >> 30; }
 
@@ -71,14 +79,20 @@ uint splat_arguments(uint slice, uint side) { return step.region + 4u + splat_wo
 const uint most_splat_groups = 16384u; // each takes one chunk after the other
 // Of splat_far: (tiles in x, in y, 1, 0), no workgroups in x until so many splats were taken that it is worth its time.
 uint splat_far_arguments() { return step.region + 4u + splat_words * splat_sides * step.slices; }
-// Where the arguments of a round start: (x, 1, 1, 0) for each slice's place, for allocate, for cast, for scatter.
-uint round_arguments(uint round) { return splat_far_arguments() + 4u + round * 4u * (step.slices + 3u); }
+// Where the arguments of a round start: (x, 1, 1, 0) for each slice's place, for allocate, for cast, for scatter, for each slice's sift.
+uint round_arguments(uint round) { return splat_far_arguments() + 4u + round * 4u * (2u * step.slices + 3u); }
 uint slice_arguments(uint round, uint slice) { return round_arguments(round) + 4u * slice; }
 uint allocate_arguments(uint round) { return round_arguments(round) + 4u * step.slices; }
 uint cast_arguments(uint round) { return round_arguments(round) + 4u * (step.slices + 1u); }
 uint scatter_arguments(uint round) { return round_arguments(round) + 4u * (step.slices + 2u); } // its 4th: entries on the list
 
-uint list_at(uint round, uint slice) { return (round * step.slices + slice) * step.list_capacity; }
+uint sift_arguments(uint round, uint slice) { return round_arguments(round) + 4u * (step.slices + 3u + slice); }
+
+bool sifted(uint others) { return (others & 32u) != 0u; }
+// Chunks that cull has taken: placed chunks, a word each; and what sift has left of them: three words each, with the bits of particles.
+const uint sifted_words = 3u;
+uint list_at(uint round, uint slice) { return (round * step.slices + slice) * (1u + sifted_words) * step.list_capacity; }
+uint sifted_at(uint round, uint slice) { return list_at(round, slice) + step.list_capacity; }
 
 // Words of all tiles: how many entries each has while placing (close together: they are counted up all over the image), then cursors
 // in the list's part, then numbers of entries.
