@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "passes/particles/particle_store.hpp"
 
+#include "core/base/parallel.hpp"
 #include "core/math/principal_axes.hpp"
 #include "passes/particles/placement.hpp"
 #include "passes/particles/sprites.hpp"
@@ -53,6 +54,7 @@ struct ParticleStore::Impl {
     std::vector<PlacedChunk> chunks{};
     std::vector<NearPayload> payloads{};
     std::map<const Slice*, gpu::BindGroup> groups{};
+    std::vector<PlacedForTiles> parts{}; // kept for their memory
     // What was placed of a slice and instance, as runs to draw.
     void append(std::vector<Run>& runs, const Batch& batch, std::size_t instance, const Slice& slice, const PlacedChunks& placed);
   };
@@ -66,6 +68,7 @@ struct ParticleStore::Impl {
   void write(gpu::Buffer& buffer, std::string_view label, std::span<const std::byte> contents, Placements& placed);
   PlacedView finish(const std::vector<Run>& runs, const View& view, Placements& placed);
   std::vector<Run> place_all(const Scene& scene, const View& view, Placements& placed, std::uint64_t& total, double largest_point) const;
+  void add_near_slice(PlacedForTiles& placed_chunks, TiledView& out, Placements& placed);
 };
 
 ParticleStore::ParticleStore(gpu::Device device) : impl_(std::make_unique<Impl>()) {
@@ -258,17 +261,48 @@ TileDraw tile_draw(const Batch& batch, std::size_t instance, const View& view, s
           .linear2 = glm::vec3(block.linear2), .color = glm::vec3(block.color), .material = material & 0xFFFFu,
           .colored = !batch.chunks->colors.empty()};
 }
-constexpr std::uint32_t near_slice = 0x7FFFu; // until its number is known
+// Chunks of one slice and instance that tiles may serve.
+struct TileJob {
+  const Batch* batch{};
+  std::size_t instance{};
+  const Slice* slice{};
+  std::uint64_t start{}; // chunks of the jobs before
+};
+std::size_t first_job(const std::vector<TileJob>& jobs, std::uint64_t chunk) {
+  const auto after = std::upper_bound(jobs.begin(), jobs.end(), chunk, [](std::uint64_t c, const TileJob& job) { return c < job.start; });
+  return after == jobs.begin() ? 0 : static_cast<std::size_t>(after - jobs.begin()) - 1;
+}
+
 // Particles of the same (batch, instance) that are in view space already.
 TileDraw near_draw(TileDraw draw) {
   draw.linear0 = {1, 0, 0};
   draw.linear1 = {0, 1, 0};
   draw.linear2 = {0, 0, 1};
   draw.scale = 1;
-  draw.slice = near_slice;
   return draw;
 }
 } // namespace
+
+// Chunks near the eye, as a slice of their own with draws of their own.
+void ParticleStore::Impl::add_near_slice(PlacedForTiles& chunks, TiledView& out, Placements& placed) {
+  std::map<std::uint32_t, std::uint32_t> draws;
+  for (TileChunk& chunk : chunks.near) {
+    const auto [known, added] = draws.try_emplace(chunk.draw, static_cast<std::uint32_t>(out.draws.size()));
+    if (added) {
+      out.draws.push_back(near_draw(out.draws[known->first]));
+      out.draws.back().slice = static_cast<std::uint32_t>(out.slices.size()) & 0x7FFFu;
+      out.draws.back().first_flag = out.flags;
+    }
+    chunk.draw = known->second & 0x3FFFFFFFu;
+  }
+  out.chunks.insert(out.chunks.end(), chunks.near.begin(), chunks.near.end());
+  out.flags += static_cast<std::uint32_t>(chunks.near.size());
+  SliceBuffers& buffers = placed.near_slice;
+  write(buffers.records, "particles.near_records", bytes_of(std::span<const glm::vec4>(chunks.near_records)), placed);
+  write(buffers.rows, "particles.near_rows", bytes_of(std::span<const std::uint32_t>(chunks.near_rows)), placed);
+  write(buffers.colors, "particles.near_colors", bytes_of(std::span<const std::uint32_t>(chunks.near_colors)), placed);
+  out.slices.push_back(buffers);
+}
 
 void ParticleStore::place_tiles(const Scene& scene, const View& view, std::string_view type, const TilePlacing& placing, TiledView& out, std::uint32_t slot) const {
   Impl::Placements& placed = impl_->placements[slot];
@@ -279,52 +313,53 @@ void ParticleStore::place_tiles(const Scene& scene, const View& view, std::strin
   out.materials.clear();
   out.slices.clear();
   out.flags = 0;
+  // What is of the type, by threads that take equal numbers of chunks; what is not, and what tiles do not serve, as runs to draw.
   std::map<const Slice*, std::uint32_t> slices;
   std::vector<Run> runs;
   const ViewCuller culler(view);
-  PlacedForTiles chunks;
-  chunks.tiled.swap(out.chunks);
+  std::vector<TileJob> jobs;
   std::uint64_t total = 0;
-  std::size_t near_before = 0;
   for (const Batch& batch : scene.batches)
     for (std::size_t k = 0; k < batch.instances.size(); ++k)
       for (const Slice& slice : impl_->residents.at(batch.chunks.get()).slices) {
-        chunks.rest.far.clear(), chunks.rest.near.clear(), chunks.rest.payloads.clear();
+        total += slice.chunk_count;
         if (batch.type != type) {
-          place_chunks(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler, chunks.rest);
-          total += slice.chunk_count;
-          placed.append(runs, batch, k, slice, chunks.rest);
+          PlacedChunks own;
+          place_chunks(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler, own);
+          placed.append(runs, batch, k, slice, own);
           continue;
         }
         const auto [known, added] = slices.try_emplace(&slice, static_cast<std::uint32_t>(out.slices.size()));
         if (added) out.slices.push_back({slice.records, slice.rows, slice.colors});
-        place_for_tiles(*batch.chunks, slice.first_chunk, slice.chunk_count, batch.instances[k], view, culler,
-                        {static_cast<std::uint32_t>(out.draws.size()), placing.exact, placing.margin, placing.splats}, chunks);
         out.draws.push_back(tile_draw(batch, k, view, out.materials));
         if (placing.material) out.draws.back().material = placing.material(batch) & 0xFFFFu;
         out.draws.back().slice = known->second & 0x7FFFu;
         out.draws.back().first_flag = out.flags;
-        if (near_before < chunks.near.size()) out.draws.push_back(near_draw(out.draws.back()));
-        for (; near_before < chunks.near.size(); ++near_before) chunks.near[near_before].draw = (out.draws.size() - 1) & 0x3FFFFFFFu;
+        jobs.push_back({&batch, k, &slice, out.flags});
         out.flags += static_cast<std::uint32_t>(slice.chunk_count);
-        total += slice.chunk_count;
-        placed.append(runs, batch, k, slice, chunks.rest);
       }
+  const std::uint32_t threads = thread_count(out.flags, 4096);
+  placed.parts.resize(std::max<std::size_t>(placed.parts.size(), threads));
+  std::vector<std::vector<std::pair<std::size_t, PlacedChunks>>> rests(threads); // of each thread, by job
+  placed.parts.front().tiled.swap(out.chunks);
+  parallel_parts(out.flags, threads, [&](std::uint32_t part, std::uint64_t begin, std::uint64_t end) {
+    PlacedForTiles& own = placed.parts[part];
+    own.clear();
+    for (std::size_t j = first_job(jobs, begin); j < jobs.size() && jobs[j].start < end; ++j) {
+      const auto& [batch, instance, slice, start] = jobs[j];
+      place_for_tiles(*batch->chunks, slice->first_chunk, std::max(begin, start) - start, std::min(end - start, slice->chunk_count), batch->instances[instance], view,
+                      culler, {static_cast<std::uint32_t>(j), placing.exact, placing.margin, placing.splats}, own);
+      if (own.rest.far.empty() && own.rest.near.empty()) continue;
+      rests[part].emplace_back(j, std::move(own.rest));
+      own.rest = {};
+    }
+  });
+  PlacedForTiles& chunks = placed.parts.front();
+  for (std::uint32_t part = 1; part < threads; ++part) chunks.add(placed.parts[part]);
+  for (const auto& rest : rests)
+    for (const auto& [j, own] : rest) placed.append(runs, *jobs[j].batch, jobs[j].instance, *jobs[j].slice, own);
   out.chunks.swap(chunks.tiled);
-  if (!chunks.near.empty()) {
-    for (TileDraw& draw : out.draws)
-      if (draw.slice == near_slice) {
-        draw.slice = static_cast<std::uint32_t>(out.slices.size()) & 0x7FFFu;
-        draw.first_flag = out.flags;
-      }
-    out.chunks.insert(out.chunks.end(), chunks.near.begin(), chunks.near.end());
-    out.flags += static_cast<std::uint32_t>(chunks.near.size());
-    SliceBuffers& buffers = placed.near_slice;
-    impl_->write(buffers.records, "particles.near_records", bytes_of(std::span<const glm::vec4>(chunks.near_records)), placed);
-    impl_->write(buffers.rows, "particles.near_rows", bytes_of(std::span<const std::uint32_t>(chunks.near_rows)), placed);
-    impl_->write(buffers.colors, "particles.near_colors", bytes_of(std::span<const std::uint32_t>(chunks.near_colors)), placed);
-    out.slices.push_back(buffers);
-  }
+  if (!chunks.near.empty()) impl_->add_near_slice(chunks, out, placed);
   out.rest = impl_->finish(runs, view, placed);
   out.rest.chunks_total = total;
 }

@@ -26,13 +26,16 @@ ViewCuller::ViewCuller(const View& view) {
   if (view.far_cut > 0) add({0, 0, -1}, view.far_cut);
 }
 
-bool ViewCuller::may_see(const glm::dvec3& center, const glm::dmat3& m, const glm::dvec3& half) const {
-  for (int i = 0; i < count_; ++i) {
-    const glm::dvec3 normal = planes_[i] * m; // in data space, per axis
-    const double reach = glm::dot(glm::abs(normal), half);
-    const double distance = glm::dot(planes_[i], center) + offsets_[i];
-    if (distance < -reach * (1.0 + 1e-6) - 1e-6 * glm::length(center)) return false;
-  }
+ViewCuller::Reaches ViewCuller::reaches(const glm::dmat3& view_from_data) const {
+  Reaches out;
+  for (std::size_t i = 0; i < count_; ++i) out[i] = glm::abs(planes_[i] * view_from_data) * (1.0 + 1e-6);
+  return out;
+}
+
+bool ViewCuller::may_see(const glm::dvec3& center, const Reaches& reaches, const glm::dvec3& half) const {
+  const double slack = 1e-6 * glm::length(center);
+  for (std::size_t i = 0; i < count_; ++i)
+    if (glm::dot(planes_[i], center) + offsets_[i] < -glm::dot(reaches[i], half) - slack) return false;
   return true;
 }
 
@@ -85,6 +88,7 @@ ChunkPlacer::ChunkPlacer(const Instance& instance, const View& view, const ViewC
   scale_ = scale.value_or(1.0);
   if (!similar_) axes_ = principal_axes(linear_);
   for (int i = 0; i < 3; ++i) reach_[i] = glm::abs(linear_[i]);
+  plane_reaches_ = culler.reaches(linear_);
 }
 
 bool ChunkPlacer::place(const Chunk& chunk, PlacedBox& out) const {
@@ -92,7 +96,7 @@ bool ChunkPlacer::place(const Chunk& chunk, PlacedBox& out) const {
   out.origin = rotation_ * (instance_linear_ * chunk.origin + translation_);
   const glm::dvec3 lo(chunk.box_min), hi(chunk.box_max), center = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
   out.center = out.origin + linear_ * center;
-  if (!culler_.may_see(out.center, linear_, half)) return false;
+  if (!culler_.may_see(out.center, plane_reaches_, half)) return false;
   out.extent = reach_ * half;
   if (similar_) {
     const double distance = distance_to_box(eye_, chunk.origin + center, half);

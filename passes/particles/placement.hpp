@@ -23,13 +23,16 @@ struct PlacedChunk {
 class ViewCuller {
 public:
   explicit ViewCuller(const View& view);
-  // Box center and half extents (per data axis), with the view-from-data matrix of its instance.
-  [[nodiscard]] bool may_see(const glm::dvec3& center_view, const glm::dmat3& view_from_data, const glm::dvec3& half) const;
+  // How far a box reaches towards each plane, per half extent along each data axis.
+  using Reaches = std::array<glm::dvec3, 6>;
+  [[nodiscard]] Reaches reaches(const glm::dmat3& view_from_data) const;
+  // Box center, and half extents along data axes with the reaches of its instance.
+  [[nodiscard]] bool may_see(const glm::dvec3& center_view, const Reaches& reaches, const glm::dvec3& half) const;
 
 private:
   glm::dvec3 planes_[6]{};   // inward normals, view space
   double offsets_[6]{};      // inside where dot(normal, p) + offset >= 0
-  int count_{};
+  std::size_t count_{};
 };
 
 // The center and bounding ball of a particle near the eye, placed in double; what shaders with NEAR_EYE begin with. Where the
@@ -76,6 +79,7 @@ private:
   glm::dmat3 instance_linear_, linear_, rotation_;
   glm::dvec3 translation_, eye_; // eye: in data space
   glm::dmat3 reach_{};           // absolute values of linear_
+  ViewCuller::Reaches plane_reaches_{};
   double scale_{1};
   bool similar_{true};
   PrincipalAxes axes_{};         // of anything but a similarity

@@ -54,7 +54,7 @@ void expect_inside(const TileChunk& chunk, const Tiles& tiles, Counts& counts) {
 
 void check_view(const ChunkSet& set, const Instance& instance, const View& view, Counts& counts, bool splats = false) {
   PlacedForTiles out;
-  place_for_tiles(set, 0, set.chunks.size(), instance, view, ViewCuller(view), {.draw = 5, .splats = splats}, out);
+  place_for_tiles(set, 0, 0, set.chunks.size(), instance, view, ViewCuller(view), {.draw = 5, .splats = splats}, out);
   std::vector<int> placed(set.chunks.size());
   const double scale = similarity_scale(instance.world_from_data).value();
   for (const TileChunk& chunk : out.tiled) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "passes/particles/tiles/tile_placement.hpp"
 
-#include "core/base/parallel.hpp"
-
 #include <cmath>
 
 namespace mote::passes {
@@ -47,7 +45,7 @@ private:
   // Pixels that a sphere extends at most if its nearest point is not before z_min and its center within `reach` of the axis.
   // Its extent in tangents is 2 r sqrt(x^2 + z^2 - r^2) / (z^2 - r^2) (method book, 4.1).
   [[nodiscard]] double extent(double radius, double z_min, double z_max, double reach) const {
-    return view_.focal * (perspective_ ? 2 * radius * std::hypot(reach, z_max) / (z_min * (z_min + 2 * radius)) : 2 * radius);
+    return view_.focal * (perspective_ ? 2 * radius * std::sqrt(reach * reach + z_max * z_max) / (z_min * (z_min + 2 * radius)) : 2 * radius);
   }
   // Tiles in x and y that it covers at most.
   [[nodiscard]] glm::uvec2 most_tiles(double radius, double z_min, double z_max, glm::dvec2 reach) const {
@@ -81,12 +79,14 @@ void add_near(const ChunkSet& set, std::uint64_t chunk, const ChunkPlacer& place
   }
 }
 
+template <class T> void append(std::vector<T>& to, const std::vector<T>& from) { to.insert(to.end(), from.begin(), from.end()); }
+
 } // namespace
 
-namespace {
-
-void place_range(const ChunkSet& set, std::uint64_t first, std::uint64_t begin, std::uint64_t end, const ChunkPlacer& placer, const TileRects& rects,
-                 const TilePlacement& how, PlacedForTiles& out) {
+void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t begin, std::uint64_t end, const Instance& instance, const View& view,
+                     const ViewCuller& culler, const TilePlacement& how, PlacedForTiles& out) {
+  const ChunkPlacer placer(instance, view, culler);
+  const TileRects rects(view, how);
   PlacedBox box;
   TileChunk tiled;
   tiled.draw = how.draw & 0x3FFFFFFFu;
@@ -105,37 +105,20 @@ void place_range(const ChunkSet& set, std::uint64_t first, std::uint64_t begin, 
   }
 }
 
-template <class T> void append(std::vector<T>& to, const std::vector<T>& from) { to.insert(to.end(), from.begin(), from.end()); }
-
-void append(PlacedForTiles& to, PlacedForTiles& from) {
-  const auto before = static_cast<std::uint32_t>(to.near_records.size() / chunk_capacity);
-  for (TileChunk& chunk : from.near) chunk.chunk += before;
-  append(to.tiled, from.tiled);
-  append(to.rest.far, from.rest.far);
-  append(to.rest.near, from.rest.near);
-  append(to.rest.payloads, from.rest.payloads);
-  append(to.near, from.near);
-  append(to.near_records, from.near_records);
-  append(to.near_rows, from.near_rows);
-  append(to.near_colors, from.near_colors);
+void PlacedForTiles::clear() {
+  tiled.clear(), near.clear();
+  rest.far.clear(), rest.near.clear(), rest.payloads.clear();
+  near_records.clear(), near_rows.clear(), near_colors.clear();
 }
 
-constexpr std::uint64_t chunks_per_thread = 4096;
-
-} // namespace
-
-void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance, const View& view,
-                     const ViewCuller& culler, const TilePlacement& how, PlacedForTiles& out) {
-  const ChunkPlacer placer(instance, view, culler);
-  const TileRects rects(view, how);
-  const std::uint32_t parts = thread_count(count, chunks_per_thread);
-  if (parts == 1) return place_range(set, first, 0, count, placer, rects, how, out);
-  std::vector<PlacedForTiles> own(parts);
-  parallel_parts(count, parts, [&](std::uint32_t part, std::uint64_t begin, std::uint64_t end) {
-    own[part].tiled.reserve(end - begin);
-    place_range(set, first, begin, end, placer, rects, how, own[part]);
-  });
-  for (PlacedForTiles& part : own) append(out, part);
+void PlacedForTiles::add(const PlacedForTiles& later) {
+  const auto before = static_cast<std::uint32_t>(near_records.size() / chunk_capacity);
+  append(tiled, later.tiled);
+  append(near, later.near);
+  for (std::size_t i = near.size() - later.near.size(); i < near.size(); ++i) near[i].chunk += before;
+  append(near_records, later.near_records);
+  append(near_rows, later.near_rows);
+  append(near_colors, later.near_colors);
 }
 
 } // namespace mote::passes

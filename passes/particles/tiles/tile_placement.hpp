@@ -21,6 +21,9 @@ struct PlacedForTiles {
   std::vector<TileChunk> near{};
   std::vector<glm::vec4> near_records{}; // 64 a chunk: view space, radius
   std::vector<std::uint32_t> near_rows{}, near_colors{};
+
+  void clear();
+  void add(const PlacedForTiles& later); // all but the rest
 };
 
 struct TilePlacement {
@@ -30,8 +33,8 @@ struct TilePlacement {
   bool splats{};         // chunks of small particles get a TileChunk::side
 };
 
-// Appends those of the chunks [first, first + count) of an instance that the view may see.
-void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t count, const Instance& instance, const View& view,
+// Appends those of the chunks [first + begin, first + end) of an instance that the view may see; indices count from `first`.
+void place_for_tiles(const ChunkSet& set, std::uint64_t first, std::uint64_t begin, std::uint64_t end, const Instance& instance, const View& view,
                      const ViewCuller& culler, const TilePlacement& how, PlacedForTiles& out);
 
 } // namespace mote::passes

@@ -17,8 +17,8 @@ constexpr std::array<std::uint32_t, 4> shares{16, 8, 4, 2}; // the nearest 1/16 
 
 std::uint32_t cells_of(std::uint32_t tiles, std::uint32_t shift) { return (tiles + (1u << shift) - 1u) >> shift; }
 
-// Appends the chunks [first, end) as steps none of which reserves more than the kernels can count.
-void add_steps(TilePlan& plan, std::span<const TileChunk> chunks, std::uint32_t first, std::uint32_t end, bool others) {
+// Appends the chunks [first, end) as steps none of which reserves more than the kernels can count; `reserved_by`: entries of each chunk.
+void add_steps(TilePlan& plan, std::span<const std::uint64_t> reserved_by, std::uint32_t first, std::uint32_t end, bool others) {
   std::uint64_t reserved = 0;
   std::uint32_t begin = first;
   auto close = [&](std::uint32_t last) {
@@ -27,7 +27,7 @@ void add_steps(TilePlan& plan, std::span<const TileChunk> chunks, std::uint32_t 
     reserved = 0;
   };
   for (std::uint32_t i = first; i < end; ++i) {
-    const std::uint64_t own = reserved_entries(chunks[i]);
+    const std::uint64_t own = reserved_by[i];
     if (reserved + own > most_reserved) close(i);
     reserved += own;
   }
@@ -84,13 +84,16 @@ TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std:
   plan.cells = plan.level3 + cells_of(plan.tiles_x, 6) * cells_of(plan.tiles_y, 6);
 
   std::uint64_t reserved = 0, largest = 0;
+  std::vector<std::uint64_t> reserved_by;
+  reserved_by.reserve(chunks.size());
   plan.depth_first = plan.depth_last = chunks.empty() ? 1.0f : chunks.front().z_min;
   for (const TileChunk& chunk : chunks) {
     plan.depth_first = std::min(plan.depth_first, chunk.z_min);
     plan.depth_last = std::max(plan.depth_last, chunk.z_min);
     plan.splats += chunk.side != 0;
-    reserved += reserved_entries(chunk);
-    largest = std::max(largest, reserved_entries(chunk));
+    reserved_by.push_back(reserved_entries(chunk));
+    reserved += reserved_by.back();
+    largest = std::max(largest, reserved_by.back());
   }
   plan.capacity = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(reserved, 4 * chunk_capacity, most_capacity));
   plan.most_entries = plan.capacity + static_cast<std::uint32_t>(largest);
@@ -99,14 +102,14 @@ TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std:
   plan.tile_room = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(std::bit_ceil(2 * average), least_room, most_room));
 
   const auto count = static_cast<std::uint32_t>(chunks.size());
-  add_steps(plan, chunks, 0, count, false);
+  add_steps(plan, reserved_by, 0, count, false);
   std::uint32_t first = 0;
   if (count > small_scene)
     for (const std::uint32_t share : shares) {
-      add_steps(plan, chunks, first, count / share, true);
+      add_steps(plan, reserved_by, first, count / share, true);
       first = count / share;
     }
-  add_steps(plan, chunks, first, count, true);
+  add_steps(plan, reserved_by, first, count, true);
   return plan;
 }
 
