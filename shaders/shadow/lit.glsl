@@ -42,10 +42,10 @@ vec2 place_on(LightMap light, bool parallel, vec3 position, out vec3 p) {
 }
 bool is_on(LightMap light, vec2 place, vec3 p) { return all(greaterThan(place, vec2(0.0))) && all(lessThan(place, light.map.xy)) && p.z > 0.0; }
 
-layout(std430, set = SHADOW_SET, binding = 1) readonly buffer Casters0 { PAIR casters0[]; };
-layout(std430, set = SHADOW_SET, binding = 2) readonly buffer Casters1 { PAIR casters1[]; };
-layout(std430, set = SHADOW_SET, binding = 3) readonly buffer Casters2 { PAIR casters2[]; };
-layout(std430, set = SHADOW_SET, binding = 4) readonly buffer Casters3 { PAIR casters3[]; };
+layout(std430, set = SHADOW_SET, binding = 1) readonly buffer Casters0 { uvec4 casters0[]; };
+layout(std430, set = SHADOW_SET, binding = 2) readonly buffer Casters1 { uvec4 casters1[]; };
+layout(std430, set = SHADOW_SET, binding = 3) readonly buffer Casters2 { uvec4 casters2[]; };
+layout(std430, set = SHADOW_SET, binding = 4) readonly buffer Casters3 { uvec4 casters3[]; };
 layout(std430, set = SHADOW_SET, binding = 5) readonly buffer CasterIds0 { uint caster_ids0[]; };
 layout(std430, set = SHADOW_SET, binding = 6) readonly buffer CasterIds1 { uint caster_ids1[]; };
 layout(std430, set = SHADOW_SET, binding = 7) readonly buffer CasterIds2 { uint caster_ids2[]; };
@@ -85,7 +85,7 @@ uint others_than(uvec4 ids, uint id, uint open) {
     uint texel = k <= 0 ? q.texels.x : k == 1 ? q.texels.y : k == 2 ? q.texels.z : q.texels.w; \
     uint id = k <= 0 ? ids.x : k == 1 ? ids.y : k == 2 ? ids.z : ids.w; \
     vec4 caster = vec4(0.0); \
-    if (open != 0u) caster = uintBitsToFloat(uvec4(words(casters[2u * texel]), words(casters[2u * texel + 1u]))); \
+    if (open != 0u) caster = uintBitsToFloat(casters[texel]); \
     blocked = blocked || (open != 0u && sphere_blocks(q.p, q.to_light, q.reach, caster)); \
     open = blocked ? 0u : others_than(ids, id, open); \
   } while (subgroupAny(open != 0u)); }

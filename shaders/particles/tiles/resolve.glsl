@@ -52,13 +52,10 @@ layout(std430, set = 1, binding = 9) writeonly buffer OutColor { uint out_color[
 layout(std430, set = 1, binding = 10) writeonly buffer OutEncoded { float out_encoded[]; };
 layout(std430, set = 1, binding = 11) writeonly buffer OutDepth { float out_depth[]; };
 layout(std430, set = 1, binding = 12) writeonly buffer OutId { uint out_id[]; };
-layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { PAIR out_normal[]; }; // surface: and depth; shadow: payload
+layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { uvec4 out_normal[]; }; // surface: and depth; shadow: payload
 layout(std430, set = 1, binding = 14) writeonly buffer OutColorPairs { PAIR out_color_pairs[]; }; // the wider formats
 
-void write_normal(uint at, vec4 v) {
-  out_normal[2u * at] = pair(floatBitsToUint(v.xy));
-  out_normal[2u * at + 1u] = pair(floatBitsToUint(v.zw));
-}
+void write_normal(uint at, vec4 v) { out_normal[at] = floatBitsToUint(v); }
 
 void write_color(uint at, vec4 color) {
   if (color_words == 1u) {
