@@ -13,5 +13,8 @@ ninja -C build/fuzz fuzz_readers
 cd build/fuzz
 formats=${*:-$(./tests/fuzz/fuzz_readers --list)}
 export ASAN_OPTIONS=max_allocation_size_mb=2048 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+# The HDF5 library asks for whatever size a changed file names, and is told that there is none; when a file is refused it keeps memory.
+export HDF5_OPTIONS=$ASAN_OPTIONS:allocator_may_return_null=1:detect_leaks=0
 printf '%s\n' $formats | xargs -P "${JOBS:-1}" -I FORMAT \
-  sh -c "./tests/fuzz/fuzz_readers FORMAT $seconds ${SEED:-1} || { echo 'FORMAT: see build/fuzz/fuzz-FORMAT.input' >&2; exit 1; }"
+  sh -c "case FORMAT in hdf5) export ASAN_OPTIONS=\$HDF5_OPTIONS ;; esac
+    ./tests/fuzz/fuzz_readers FORMAT $seconds ${SEED:-1} 2> fuzz-FORMAT.log || { cat fuzz-FORMAT.log; echo 'FORMAT: see build/fuzz/fuzz-FORMAT.input'; exit 1; } >&2"
