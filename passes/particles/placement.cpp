@@ -74,8 +74,11 @@ void ChunkPlacer::add_near(const ChunkSet& set, std::uint64_t chunk, const glm::
       power = radius > 0.0 ? (distance - 1.0) * (distance + 1.0) : 0.0;
     }
     const TwoFloats x(center.x), y(center.y), z(center.z), p(power);
+    const glm::vec4 second = set.vec4s_per_record > 1 ? set.records[record * set.vec4s_per_record + 1] : glm::vec4(0);
+    const glm::dvec3 vector = own_from_data_ * glm::dvec3(second);
+    const TwoFloats u(vector.x), v(vector.y), w(vector.z);
     out.push_back({glm::vec4(x.high, y.high, z.high, static_cast<float>(radius)), glm::vec4(x.rest, y.rest, z.rest, p.high),
-                   glm::vec4(p.rest, 0, 0, 0)});
+                   glm::vec4(p.rest, u.rest, v.rest, w.rest), glm::vec4(u.high, v.high, w.high, static_cast<float>(scale_ * double(second.w)))});
   }
 }
 
@@ -87,6 +90,10 @@ ChunkPlacer::ChunkPlacer(const Instance& instance, const View& view, const ViewC
   similar_ = scale.has_value();
   scale_ = scale.value_or(1.0);
   if (!similar_) axes_ = principal_axes(linear_);
+  own_from_data_ = linear_;
+  if (!similar_) // V^T of linear = U S V^T; S is negative where it mirrors
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) own_from_data_[i][k] = glm::dot(axes_.axes[k], linear_[i]) / (glm::determinant(linear_) < 0.0 ? -axes_.lengths[k] : axes_.lengths[k]);
   for (int i = 0; i < 3; ++i) reach_[i] = glm::abs(linear_[i]);
   plane_reaches_ = culler.reaches(linear_);
 }

@@ -40,7 +40,8 @@ private:
 struct NearPayload {
   glm::vec4 center_radius{0}; // view space
   glm::vec4 rest_power{0};    // xyz: what rounding took from the center; w: |center|^2 - radius^2
-  glm::vec4 power_rest{0};    // x: what rounding took from that power; yzw unused
+  glm::vec4 power_rest{0};    // x: what rounding took from that power; yzw: from the vector
+  glm::vec4 vector_size{0};   // the record's second vec4 in own space (own_space.glsl), as if it were a vector and a length
 };
 
 // What a view may see of some chunks. A chunk is near when the eye is closer to its box than twice the box's half
@@ -83,6 +84,7 @@ private:
   double scale_{1};
   bool similar_{true};
   PrincipalAxes axes_{};         // of anything but a similarity
+  glm::dmat3 own_from_data_{};   // turns (a similarity: and scales) a record's vectors: own_space.glsl
 };
 
 class SpriteRule; // sprites.hpp

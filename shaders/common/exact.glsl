@@ -111,8 +111,8 @@ vec2 dot_pair(vec3 a, vec3 a_rest, vec3 b, vec3 b_rest) {
   return normal_pair(s2, low);
 }
 
-// s (d + d_rest) - (m + m_rest), rounded once: products and the first difference are exact.
-vec3 along_minus(vec2 s, vec3 d, vec3 d_rest, vec3 m, vec3 m_rest) {
+// s (d + d_rest) - (m + m_rest), as a sum of two floats: products and the first difference are exact.
+void along_minus(vec2 s, vec3 d, vec3 d_rest, vec3 m, vec3 m_rest, out vec3 rounded, out vec3 rest) {
   precise vec3 p = s.x * d;
   float sh = hi12(s.x);
   float sl = s.x - sh;
@@ -123,7 +123,14 @@ vec3 along_minus(vec2 s, vec3 d, vec3 d_rest, vec3 m, vec3 m_rest) {
   precise vec3 t = l - p;
   precise vec3 r = (p - (l - t)) - (m + t);
   precise vec3 low = r + e + (s.x * d_rest + s.y * d - m_rest);
-  return l + low;
+  precise vec3 sum = l + low;
+  rest = low - (sum - l);
+  rounded = sum;
+}
+vec3 along_minus(vec2 s, vec3 d, vec3 d_rest, vec3 m, vec3 m_rest) { // rounded once
+  vec3 rounded, rest;
+  along_minus(s, d, d_rest, m, m_rest, rounded, rest);
+  return rounded;
 }
 
 #endif

@@ -115,6 +115,35 @@ Stretch inside_capsule(OwnRay ray, AxialRay r, Axis axis, vec3 h, float radius) 
   return joined(joined(side, inside_ball(ray, -h, radius)), inside_ball(ray, h, radius));
 }
 
+#ifdef NEAR_EYE
+// Near the eye a depth is small against the numbers that it was formed of, and their roundings show in it. So a depth that was found is
+// moved onto the surface by a step of Newton, whose residual is formed of numbers of twice the precision.
+
+// A ray's point at depth t as seen from the particle's center, in own space: a sum of two floats.
+void point_in_pairs(Ray ray, vec3 center, vec3 rest, float t, out vec3 point, out vec3 point_rest) {
+  vec3 m, m_rest, high, low;
+  two_sum(center, -ray.origin, m, m_rest);
+  along_minus(vec2(t, 0.0), ray.direction, orthographic ? vec3(0.0) : ray.rest, m, m_rest + rest - (orthographic ? ray.rest : vec3(0.0)), high, low);
+  point = to_own(high);
+  point_rest = to_own(low);
+}
+// slope: half the residual's derivative along a ray d. Steps that are no small part of the chord are not taken: at the limb.
+float stepped(float t, float residual, float slope, vec3 d) {
+  float step_ = residual / (2.0 * slope);
+  return abs(step_) < 0.25 * abs(slope) / dot(d, d) ? t - step_ : t;
+}
+
+// Onto the points as far from the segment from -h to h as the radius. An error of the place on the segment counts squared.
+float onto_capsule(Ray ray, vec3 center, vec3 rest, vec3 h, vec3 h_rest, float radius, float t) {
+  vec3 p, p_rest, towards, towards_rest, d = to_own(ray.direction);
+  point_in_pairs(ray, center, rest, t, p, p_rest);
+  float z = clamp(dot(p, h) / max(dot(h, h), 1e-30), -1.0, 1.0);
+  along_minus(vec2(z, 0.0), h, h_rest, p, p_rest, towards, towards_rest);
+  vec2 residual = minus(dot_pair(towards, towards_rest, towards, towards_rest), two_product(radius, radius));
+  return stepped(t, residual.x, -dot(towards, d), d);
+}
+#endif
+
 // How near the ray passes the axis between lo and hi.
 float distance_to_axis(OwnRay ray, AxialRay r, vec3 u, float lo, float hi) {
   float nearest = r.d_p > 1e-8 * abs(r.dz) ? r.fz * r.dz / (r.d_p * r.d_p) : 0.0;

@@ -27,7 +27,7 @@ Particle shaped(vec3 center, float bound, vec3 rest, vec4 first, vec4 second) {
   return Particle(center, bound, first.xyz, first.w, second.x, MAY_BE_OPEN && second.y == 1.0, rest);
 }
 #ifdef NEAR_EYE
-Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[3]) {
+Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[4]) {
   return shaped(near[0].xyz, near[0].w, near[1].xyz, vec4(turned(at, record[1].xyz), scaled(at, record[1].w)), vec4(scaled(at, record[2].x), record[2].yzw));
 }
 Particle unpack(vec4 payload[payload_vec4s]) { return shaped(payload[0].xyz, payload[0].w, payload[3].xyz, payload[1], payload[2]); }

@@ -7,9 +7,10 @@
 //                                                    texel of a shadow map keeps of a caster; at most 4
 //   struct Particle                                  view-space values of one particle
 //   Particle place(vec4 record[], Placement)         record (chunk-relative) to view space; not with NEAR_EYE
-//   Particle place_near(vec4 record[], Placement, vec4 near[3])   NEAR_EYE: the center comes placed: near[0] = (center, radius of
+//   Particle place_near(vec4 record[], Placement, vec4 near[4])   NEAR_EYE: the center comes placed: near[0] = (center, radius of
 //                                                    the bounding ball), near[1].xyz = center - float32(center); near[1].w and
-//                                                    near[2].x: |center|^2 - radius^2 as a sum of two floats
+//                                                    near[2].x: |center|^2 - radius^2 as a sum of two floats; near[3] = record[1],
+//                                                    (vector, size), in own space, near[2].yzw what rounding took from the vector
 //   void pack(Particle, out vec4 payload[]), Particle unpack(vec4 payload[])
 //   bool drawable(Particle)                          false: radius 0 and the like, drawn as nothing
 //   Proxy proxy(Particle)                            bounds on the image

@@ -62,7 +62,7 @@ Particle oriented(vec4 record[record_vec4s], Placement at, vec3 center, float bo
 }
 
 #ifdef NEAR_EYE
-Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[3]) {
+Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[4]) {
   Particle p = oriented(record, at, near[0].xyz, near[0].w);
   p.rest = near[1].xyz;
   return p;

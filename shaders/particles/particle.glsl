@@ -49,7 +49,7 @@ layout(std430, set = 1, binding = 2) readonly buffer Colors { uint colors[]; };
 layout(std430, set = 1, binding = 3) readonly buffer Placements { uvec4 placements[]; };
 
 #ifdef NEAR_EYE
-layout(std430, set = 1, binding = 4) readonly buffer NearCenters { vec4 near_centers[]; }; // 3 a particle: NearPayload
+layout(std430, set = 1, binding = 4) readonly buffer NearCenters { vec4 near_centers[]; }; // 4 a particle: NearPayload
 #endif
 
 const uint chunk_capacity = 64u;
@@ -83,8 +83,8 @@ Loaded load_particle(uint index) {
   Placement at = Placement(mat3(batch.linear0_scale.xyz, batch.linear1.xyz, batch.linear2.xyz),
                            uintBitsToFloat(placed.xyz), batch.linear0_scale.w);
 #ifdef NEAR_EYE
-  vec4 near[3];
-  for (int i = 0; i < 3; ++i) near[i] = near_centers[(batch.first_near + index) * 3u + uint(i)];
+  vec4 near[4];
+  for (int i = 0; i < 4; ++i) near[i] = near_centers[(batch.first_near + index) * 4u + uint(i)];
   loaded.particle = place_near(record, at, near);
 #else
   loaded.particle = place(record, at);

@@ -115,6 +115,33 @@ TEST(Placement, ParticlesNearTheEyeArePlacedInDouble) {
   EXPECT_EQ(out.far.size(), 1u);
 }
 
+// The axis of a particle near the eye comes turned in double, as what own_space.glsl says its own space is.
+TEST(Placement, VectorsNearTheEyeAreTurnedInDouble) {
+  ChunkSet set = one_chunk({0, 0, 0}, 2.0f);
+  set.vec4s_per_record = 2;
+  set.records.assign(2 * chunk_capacity, glm::vec4(0));
+  set.records[0] = {0, 0, 0, 2.0f};
+  set.records[1] = {0.3f, 0.7f, -0.9f, 0.1f};
+  const View view = view_from({1, 2, 2.5}, {0, 0, 0});
+  const auto placed = [&](const glm::dmat4& m) {
+    PlacedChunks out;
+    place_chunks(set, 0, 1, {m}, view, ViewCuller(view), out);
+    return out.payloads.at(0);
+  };
+  const auto vector = [](const NearPayload& p) { return glm::dvec3(p.vector_size) + glm::dvec3(p.power_rest.y, p.power_rest.z, p.power_rest.w); };
+  const glm::dvec3 h(set.records[1]);
+  const NearPayload doubled = placed(glm::dmat4(glm::dmat3(2.0)));
+  EXPECT_LT(glm::length(vector(doubled) - view.rotation * (2.0 * h)), 1e-14);
+  EXPECT_FLOAT_EQ(doubled.vector_size.w, 0.2f);
+  const glm::dmat4 uneven(glm::dmat3(-1.5, 0.2, 0, 0.1, 1, 0.3, 0, 0, 0.5)); // mirrors, too
+  const glm::dmat3 linear = view.rotation * glm::dmat3(uneven);
+  const PrincipalAxes shape = principal_axes(linear);
+  const NearPayload stretched = placed(uneven);
+  EXPECT_LT(glm::length(shape.axes * (-shape.lengths * vector(stretched)) - linear * h), 1e-13);
+  EXPECT_NEAR(glm::length(vector(stretched)), glm::length(h), 1e-13) << "turned, not stretched";
+  EXPECT_FLOAT_EQ(stretched.vector_size.w, 0.1f);
+}
+
 TEST(Placement, NearAndFarCut) {
   View view = view_from({0, 0, 100}, {0, 0, 0});
   EXPECT_EQ(place(one_chunk({0, 0, 110}, 1.0f), view).size(), 0u) << "behind the eye";

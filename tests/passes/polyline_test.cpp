@@ -68,7 +68,7 @@ TEST_F(Polyline, CloudsEqualTheReference) {
 TEST_F(Polyline, InsideCutMirroredUnevenFar) {
   const std::vector<Glyph> thick = walks(12, 4, 1.2, 9);
   const Scene inside = glyph_scene("polyline", thick);
-  check(inside, look(inside, thick[3].center, thick[3].center + glm::dvec3(1, 0.3, 0.2), {160, 120}, 70), {.least_hits = 0.8, .most_ambiguous = 0.05, .depth_factor = 4});
+  check(inside, look(inside, thick[3].center, thick[3].center + glm::dvec3(1, 0.3, 0.2), {160, 120}, 70), {.least_hits = 0.8, .most_ambiguous = 0.05});
   View view = look(inside, {3, 5, 22}, {0, 0, 0}, {200, 140});
   view.near_cut = 21.0;
   check(inside, view, {.least_hits = 0.05, .most_ambiguous = 0.05});

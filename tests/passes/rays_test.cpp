@@ -29,9 +29,15 @@ void main() {
   In from = ins[gl_GlobalInvocationID.x];
   vec4 record[record_vec4s], payload[payload_vec4s];
   for (int i = 0; i < record_vec4s; ++i) record[i] = from.record[i];
+#ifdef NEAR_EYE
+  vec4 near[4] = vec4[4](record[0], vec4(0.0), vec4(0.0), record[1]);
+  pack(place_near(record, Placement(mat3(1.0), vec3(0.0), 1.0), near), payload);
+  Ray ray = Ray(vec3(0.0), from.direction.xyz, vec3(0.0));
+#else
   pack(place(record, Placement(mat3(1.0), vec3(0.0), 1.0)), payload);
-  Particle p = unpack(payload);
   Ray ray = Ray(vec3(0.0), from.direction.xyz);
+#endif
+  Particle p = unpack(payload);
   Interval hit;
   bool met = drawable(p) && intersect(ray, p, hit);
   outs[gl_GlobalInvocationID.x] = Out(vec4(met ? 1.0 : 0.0, hit.t_in, hit.t_out, 0.0), vec4(outward_normal(ray, p, hit, false), 0.0),
@@ -61,7 +67,8 @@ struct Errors {
 
 class Rays : public GpuTest {
 protected:
-  bool open{}; // cylinders without end discs
+  bool open{};     // cylinders without end discs
+  bool near_eye{}; // the variant that draws what is near the eye
 
   std::vector<Out> cast(const std::string& type, const std::vector<In>& ins) {
     const auto text = [](const std::string& path) -> std::string {
@@ -71,7 +78,7 @@ protected:
       }
       return std::string(shaders::text(path));
     };
-    const gpu::CompiledShader compiled = gpu::compile_glsl(gpu::ShaderStage::Compute, {"rays.comp", kernel}, {}, [&](const std::string& name, const std::string&) {
+    const gpu::CompiledShader compiled = gpu::compile_glsl(gpu::ShaderStage::Compute, {"rays.comp", kernel}, near_eye ? std::vector<gpu::ShaderDefine>{{"NEAR_EYE", "1"}} : std::vector<gpu::ShaderDefine>{}, [&](const std::string& name, const std::string&) {
       return std::optional(gpu::GlslSource{name, text(name == "type.glsl" ? "particles/" + type + "/type.glsl" : name)});
     });
     for (const gpu::ShaderMessage& message : compiled.messages) ADD_FAILURE() << to_string(message);
@@ -144,11 +151,11 @@ protected:
         const double t = exit ? exact->t_out : exact->t_in;
         if (t <= 0.0) continue;
         const double off = std::abs(double(exit ? outs[i].hit.z : outs[i].hit.y) - t);
-        e.depth.push_back(off / t);
+        const bool inner = exit ? exact->inner_out : exact->inner_in; // no surface, so no normal
+        if (!(near_eye && inner)) e.depth.push_back(off / t);
         e.by_size.push_back(off / p.radius);
         const glm::dvec3 n = shape.normal(p, {glm::dvec3(0), d}, exit);
         const double error = angle(glm::dvec3(exit ? outs[i].n_out : outs[i].n_in), n);
-        const bool inner = exit ? exact->inner_out : exact->inner_in; // no surface, so no normal
         if (!inner && std::abs(glm::dot(n, glm::normalize(d))) > 0.14) e.normal.push_back(error); // a sphere's rays to 0.99 radii
         break;
       }
@@ -180,6 +187,21 @@ protected:
       }
   }
 };
+
+// What is drawn near the eye has depths to their own precision: from inside, where they are small against the particle, too.
+TEST_F(Rays, NearTheEye) {
+  near_eye = true;
+  for (const std::string type : {"capsule", "polyline"})
+    for (const double distance : {0.0, 2.0, 30.0}) {
+      Errors e = measure(type, distance, false);
+      const double half = percentile(e.depth, 0.5), most = percentile(e.depth, 0.99);
+      if (std::getenv("MOTE_MEASURE")) fmt::print("| {}, near | {:g} | {} | {:.1e} | {:.1e} | {:.1e} |\n", type, distance, e.hits, half, most, percentile(e.depth, 1.0));
+      EXPECT_EQ(e.wrong, 0u) << type << " " << distance;
+      EXPECT_GT(e.hits, 2000u) << type << " " << distance;
+      EXPECT_LE(half, 4e-8) << type << " " << distance;
+      EXPECT_LE(most, 1e-7) << type << " " << distance;
+    }
+}
 
 TEST_F(Rays, Sphere) { check_type("sphere", {.distant = 2e-5}); }
 TEST_F(Rays, Capsule) { check_type("capsule", {.needle = 1e-3}); }

@@ -8,7 +8,7 @@
 #define CASTER_VEC4S 2
 const int record_vec4s = 2;
 #ifdef NEAR_EYE
-const int payload_vec4s = 3;
+const int payload_vec4s = 4;
 #else
 const int payload_vec4s = 2;
 #endif
@@ -19,15 +19,15 @@ struct Particle {
   vec3 h;      // own space, as all that follows
   float radius;
 #ifdef NEAR_EYE
-  vec3 rest;   // center - float32(center)
+  vec3 rest, h_rest; // what rounding took from center and h
 #endif
 };
 
 #ifdef NEAR_EYE
-Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[3]) {
-  return Particle(near[0].xyz, near[0].w, turned(at, record[1].xyz), scaled(at, record[1].w), near[1].xyz);
+Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[4]) {
+  return Particle(near[0].xyz, near[0].w, near[3].xyz, near[3].w, near[1].xyz, near[2].yzw);
 }
-Particle unpack(vec4 payload[payload_vec4s]) { return Particle(payload[0].xyz, payload[0].w, payload[1].xyz, payload[1].w, payload[2].xyz); }
+Particle unpack(vec4 payload[payload_vec4s]) { return Particle(payload[0].xyz, payload[0].w, payload[1].xyz, payload[1].w, payload[2].xyz, payload[3].xyz); }
 #else
 Particle place(vec4 record[record_vec4s], Placement at) {
   return Particle(placed_center(at, record[0].xyz), scaled(at, record[0].w), turned(at, record[1].xyz), scaled(at, record[1].w));
@@ -39,6 +39,7 @@ void pack(Particle p, out vec4 payload[payload_vec4s]) {
   payload[1] = vec4(p.h, p.radius);
 #ifdef NEAR_EYE
   payload[2] = vec4(p.rest, 0.0);
+  payload[3] = vec4(p.h_rest, 0.0);
 #endif
 }
 
@@ -64,6 +65,10 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
   Stretch in_ = inside_capsule(own, axial(own, axis), axis, p.h, p.radius);
   bool met = in_.s.x <= in_.s.y;
   hit = interval_of(own, met ? in_.s : vec2(0.0), in_.first, in_.last, vec2(0.0));
+#ifdef NEAR_EYE
+  hit.t_in = met ? onto_capsule(ray, p.center, p.rest, p.h, p.h_rest, p.radius, hit.t_in) : hit.t_in;
+  hit.t_out = met ? onto_capsule(ray, p.center, p.rest, p.h, p.h_rest, p.radius, hit.t_out) : hit.t_out;
+#endif
   return met;
 }
 vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) { return normal_from_own(exit ? hit.ends.xyz : hit.local.xyz); }

@@ -21,33 +21,36 @@ struct Particle {
   vec3 h;      // own space, as all that follows
   float radius;
   vec3 low, high; // unit normals of the planes at -h and h, along the chain; or 0
-  vec3 rest;   // center - float32(center); 0 but for NEAR_EYE
+  vec3 rest, h_rest; // what rounding took from center and h; 0 but for NEAR_EYE
 };
 
 vec3 unit_or_zero(vec3 v) { return dot(v, v) > 0.0 ? normalize(v) : vec3(0.0); }
 
-Particle shaped(vec4 record[record_vec4s], Placement at, vec3 center, float bound, vec3 rest) {
-  return Particle(center, bound, turned(at, record[1].xyz), scaled(at, record[1].w), unit_or_zero(turned(at, record[2].xyz)), unit_or_zero(turned(at, record[3].xyz)), rest);
+Particle shaped(vec4 record[record_vec4s], Placement at, vec4 ball, vec4 first, vec3 rest, vec3 h_rest) {
+  return Particle(ball.xyz, ball.w, first.xyz, first.w, unit_or_zero(turned(at, record[2].xyz)), unit_or_zero(turned(at, record[3].xyz)), rest, h_rest);
 }
 #ifdef NEAR_EYE
-Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[3]) { return shaped(record, at, near[0].xyz, near[0].w, near[1].xyz); }
+Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[4]) { return shaped(record, at, near[0], near[3], near[1].xyz, near[2].yzw); }
 #else
-Particle place(vec4 record[record_vec4s], Placement at) { return shaped(record, at, placed_center(at, record[0].xyz), scaled(at, record[0].w), vec3(0.0)); }
+Particle place(vec4 record[record_vec4s], Placement at) {
+  return shaped(record, at, vec4(placed_center(at, record[0].xyz), scaled(at, record[0].w)), vec4(turned(at, record[1].xyz), scaled(at, record[1].w)), vec3(0.0), vec3(0.0));
+}
 #endif
 Particle unpack(vec4 payload[payload_vec4s]) {
-  vec3 rest = vec3(0.0);
+  vec3 rest = vec3(0.0), h_rest = vec3(0.0);
 #ifdef NEAR_EYE
   rest = payload[4].xyz;
+  h_rest = vec3(payload[2].w, payload[3].w, payload[4].w);
 #endif
-  return Particle(payload[0].xyz, payload[0].w, payload[1].xyz, payload[1].w, payload[2].xyz, payload[3].xyz, rest);
+  return Particle(payload[0].xyz, payload[0].w, payload[1].xyz, payload[1].w, payload[2].xyz, payload[3].xyz, rest, h_rest);
 }
 void pack(Particle p, out vec4 payload[payload_vec4s]) {
   payload[0] = vec4(p.center, p.bound);
   payload[1] = vec4(p.h, p.radius);
-  payload[2] = vec4(p.low, 0.0);
-  payload[3] = vec4(p.high, 0.0);
+  payload[2] = vec4(p.low, p.h_rest.x);
+  payload[3] = vec4(p.high, p.h_rest.y);
 #ifdef NEAR_EYE
-  payload[4] = vec4(p.rest, 0.0);
+  payload[4] = vec4(p.rest, p.h_rest.z);
 #endif
 }
 
@@ -80,6 +83,10 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
   if (s.x <= s.y) cut_by(own.f, own.d, -p.h, -p.low, p.radius, s, inner);
   bool met = s.x <= s.y;
   hit = interval_of(own, met ? s : whole.x <= whole.y ? vec2(whole.x) : vec2(0.0), in_.first, in_.last, inner);
+#ifdef NEAR_EYE
+  hit.t_in = met && inner.x == 0.0 ? onto_capsule(ray, p.center, p.rest, p.h, p.h_rest, p.radius, hit.t_in) : hit.t_in;
+  hit.t_out = met && inner.y == 0.0 ? onto_capsule(ray, p.center, p.rest, p.h, p.h_rest, p.radius, hit.t_out) : hit.t_out;
+#endif
   return met;
 }
 bool inner_end(Interval hit, bool exit) { return (exit ? hit.ends.w : hit.local.w) > 0.0; }

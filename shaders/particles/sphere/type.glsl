@@ -23,7 +23,7 @@ struct Particle {
 };
 
 #ifdef NEAR_EYE
-Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[3]) {
+Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[4]) {
   return Particle(near[0].xyz, near[0].w, near[1].xyz, vec2(near[1].w, near[2].x));
 }
 Particle unpack(vec4 payload[payload_vec4s]) {
