@@ -142,6 +142,32 @@ float onto_capsule(Ray ray, vec3 center, vec3 rest, vec3 h, vec3 h_rest, float r
   vec2 residual = minus(dot_pair(towards, towards_rest, towards, towards_rest), two_product(radius, radius));
   return stepped(t, residual.x, -dot(towards, d), d);
 }
+
+vec2 length_in_pairs(vec3 h, vec3 h_rest) {
+  vec2 hh = dot_pair(h, h_rest, h, h_rest);
+  float root = sqrt(hh.x);
+  return normal_pair(root, minus(hh, two_product(root, root)).x / (2.0 * root));
+}
+
+// Onto the side whose radius goes from `low` at -h to `high` at h, each a sum of two floats.
+float onto_side(Ray ray, vec3 center, vec3 rest, vec3 h, vec3 h_rest, vec2 low, vec2 high, float t) {
+  vec3 p, p_rest, towards, towards_rest, d = to_own(ray.direction);
+  point_in_pairs(ray, center, rest, t, p, p_rest);
+  vec2 hh = dot_pair(h, h_rest, h, h_rest), z = divided(dot_pair(p, p_rest, h, h_rest), hh);
+  along_minus(z, h, h_rest, p, p_rest, towards, towards_rest);
+  vec2 change = 0.5 * minus(high, low), radius = minus(0.5 * minus(high, -low), -times(change, z));
+  vec2 residual = minus(dot_pair(towards, towards_rest, towards, towards_rest), times(radius, radius));
+  return stepped(t, residual.x, -dot(towards, d) - radius.x * change.x * dot(d, h) / hh.x, d);
+}
+// Onto the plane across the axis that lies the length `back` before `end` times h; end: -1 or 1.
+float onto_disc(Ray ray, vec3 center, vec3 rest, vec3 h, vec3 h_rest, float end, float back, float t) {
+  vec3 p, p_rest;
+  point_in_pairs(ray, center, rest, t, p, p_rest);
+  vec2 residual = minus(dot_pair(p, p_rest, h, h_rest), end * dot_pair(h, h_rest, h, h_rest));
+  residual = minus(residual, -times(vec2(back, 0.0), length_in_pairs(h, h_rest)));
+  float slope = dot(to_own(ray.direction), h), step_ = residual.x / slope;
+  return abs(step_) < 1e-3 * abs(t) ? t - step_ : t;
+}
 #endif
 
 // How near the ray passes the axis between lo and hi.

@@ -20,30 +20,32 @@ struct Particle {
   vec3 h;      // own space, as all that follows
   float radius, radius_end;
   bool open;
-  vec3 rest;   // center - float32(center); 0 but for NEAR_EYE
+  vec3 rest, h_rest; // what rounding took from center and h; 0 but for NEAR_EYE
 };
 
-Particle shaped(vec3 center, float bound, vec3 rest, vec4 first, vec4 second) {
-  return Particle(center, bound, first.xyz, first.w, second.x, MAY_BE_OPEN && second.y == 1.0, rest);
+Particle shaped(vec3 center, float bound, vec3 rest, vec3 h_rest, vec4 first, vec4 second) {
+  return Particle(center, bound, first.xyz, first.w, second.x, MAY_BE_OPEN && second.y == 1.0, rest, h_rest);
 }
 #ifdef NEAR_EYE
 Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[4]) {
-  return shaped(near[0].xyz, near[0].w, near[1].xyz, vec4(turned(at, record[1].xyz), scaled(at, record[1].w)), vec4(scaled(at, record[2].x), record[2].yzw));
+  return shaped(near[0].xyz, near[0].w, near[1].xyz, near[2].yzw, near[3], vec4(scaled(at, record[2].x), record[2].yzw));
 }
-Particle unpack(vec4 payload[payload_vec4s]) { return shaped(payload[0].xyz, payload[0].w, payload[3].xyz, payload[1], payload[2]); }
+Particle unpack(vec4 payload[payload_vec4s]) {
+  return shaped(payload[0].xyz, payload[0].w, payload[3].xyz, vec3(payload[2].zw, payload[3].w), payload[1], payload[2]);
+}
 #else
 Particle place(vec4 record[record_vec4s], Placement at) {
-  return shaped(placed_center(at, record[0].xyz), scaled(at, record[0].w), vec3(0.0), vec4(turned(at, record[1].xyz), scaled(at, record[1].w)),
+  return shaped(placed_center(at, record[0].xyz), scaled(at, record[0].w), vec3(0.0), vec3(0.0), vec4(turned(at, record[1].xyz), scaled(at, record[1].w)),
                 vec4(scaled(at, record[2].x), record[2].yzw));
 }
-Particle unpack(vec4 payload[payload_vec4s]) { return shaped(payload[0].xyz, payload[0].w, vec3(0.0), payload[1], payload[2]); }
+Particle unpack(vec4 payload[payload_vec4s]) { return shaped(payload[0].xyz, payload[0].w, vec3(0.0), vec3(0.0), payload[1], payload[2]); }
 #endif
 void pack(Particle p, out vec4 payload[payload_vec4s]) {
   payload[0] = vec4(p.center, p.bound);
   payload[1] = vec4(p.h, p.radius);
-  payload[2] = vec4(p.radius_end, p.open ? 1.0 : 0.0, 0.0, 0.0);
+  payload[2] = vec4(p.radius_end, p.open ? 1.0 : 0.0, p.h_rest.xy);
 #ifdef NEAR_EYE
-  payload[3] = vec4(p.rest, 0.0);
+  payload[3] = vec4(p.rest, p.h_rest.z);
 #endif
 }
 
@@ -57,6 +59,13 @@ Proxy proxy(Particle p) {
 
 float middle_radius(Particle p) { return 0.5 * (p.radius + p.radius_end); }
 float slope_of(Particle p, Axis axis) { return (p.radius_end - p.radius) / (2.0 * axis.half_length); }
+
+#ifdef NEAR_EYE
+float settled(Ray ray, Particle p, bool disc, float z, float t) {
+  return disc ? onto_disc(ray, p.center, p.rest, p.h, p.h_rest, z, 0.0, t)
+              : onto_side(ray, p.center, p.rest, p.h, p.h_rest, vec2(p.radius, 0.0), vec2(p.radius_end, 0.0), t);
+}
+#endif
 
 bool intersect(Ray ray, Particle p, out Interval hit) {
   OwnRay own = own_ray(ray, p.center, p.rest);
@@ -72,6 +81,12 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
   }
   bool met = in_.s.x <= in_.s.y;
   hit = interval_of(own, met ? in_.s : vec2(0.0), in_.first, in_.last, vec2(0.0));
+#ifdef NEAR_EYE
+  float ahead = dot(own.d, p.h) > 0.0 ? 1.0 : -1.0;
+  bool open = MAY_BE_OPEN && p.open;
+  hit.t_in = met ? settled(ray, p, in_.disc.x && !open, -ahead, hit.t_in) : hit.t_in;
+  hit.t_out = met ? settled(ray, p, in_.disc.y && !open, ahead, hit.t_out) : hit.t_out;
+#endif
   return met;
 }
 vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) { return normal_from_own(exit ? hit.ends.xyz : hit.local.xyz); }

@@ -163,7 +163,7 @@ TEST_P(Axial, EyeInside) {
   std::vector<Glyph> glyphs = cloud_of(GetParam(), {1500, 10, 0.05, 0.6});
   glyphs.push_back(axial(GetParam(), {0.1, 0.2, 0.3}, {2, 1, 0.5}, 1.5)); // holds the eye
   const Scene scene = glyph_scene(type_of(GetParam()), glyphs);
-  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.9, .depth_factor = 3});
+  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.9});
 }
 
 // Long, thin and slanting: of the tiles of their rectangles they touch few, and all that they touch show them.
@@ -222,7 +222,7 @@ TEST_P(Axial, UnevenlyScaledFromInside) {
   std::vector<Glyph> glyphs = cloud_of(GetParam(), {600, 6, 0.05, 0.6});
   glyphs.push_back(axial(GetParam(), {0.1, 0.2, 0.3}, {2, 1, 0.5}, 1.5));
   const Scene scene = placed(glyph_scene(type_of(GetParam()), glyphs), {general()});
-  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.8, .depth_factor = 6, .normal_factor = 2});
+  check(scene, look(scene, {0, 0, 0}, {1, 0.2, 0.1}, {320, 200}, 60), {.least_hits = 0.8, .depth_factor = 3, .normal_factor = 2});
   View cut = look(scene, {9, 12, 30}, {0, 0, 0}, {320, 200});
   cut.near_cut = 31.0;
   check(scene, cut, {.least_hits = 0.05, .normal_factor = 2});

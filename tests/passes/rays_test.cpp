@@ -191,7 +191,7 @@ protected:
 // What is drawn near the eye has depths to their own precision: from inside, where they are small against the particle, too.
 TEST_F(Rays, NearTheEye) {
   near_eye = true;
-  for (const std::string type : {"capsule", "polyline"})
+  for (const std::string type : {"capsule", "polyline", "cylinder", "cone", "arrow"})
     for (const double distance : {0.0, 2.0, 30.0}) {
       Errors e = measure(type, distance, false);
       const double half = percentile(e.depth, 0.5), most = percentile(e.depth, 0.99);

@@ -19,31 +19,33 @@ struct Particle {
   float bound;
   vec3 h;      // own space, as all that follows
   float shaft, head, head_length;
-  vec3 rest;   // center - float32(center); 0 but for NEAR_EYE
+  vec3 rest, h_rest; // what rounding took from center and h; 0 but for NEAR_EYE
 };
 
-Particle shaped(vec3 center, float bound, vec3 rest, vec4 first, vec4 second) {
-  return Particle(center, bound, first.xyz, first.w, second.x, second.y, rest);
+Particle shaped(vec3 center, float bound, vec3 rest, vec3 h_rest, vec4 first, vec4 second) {
+  return Particle(center, bound, first.xyz, first.w, second.x, second.y, rest, h_rest);
 }
 #ifdef NEAR_EYE
 Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[4]) {
-  return shaped(near[0].xyz, near[0].w, near[1].xyz, vec4(turned(at, record[1].xyz), scaled(at, record[1].w)),
+  return shaped(near[0].xyz, near[0].w, near[1].xyz, near[2].yzw, near[3],
                 vec4(scaled(at, record[2].x), scaled(at, record[2].y), 0.0, 0.0));
 }
-Particle unpack(vec4 payload[payload_vec4s]) { return shaped(payload[0].xyz, payload[0].w, payload[3].xyz, payload[1], payload[2]); }
+Particle unpack(vec4 payload[payload_vec4s]) {
+  return shaped(payload[0].xyz, payload[0].w, payload[3].xyz, vec3(payload[2].zw, payload[3].w), payload[1], payload[2]);
+}
 #else
 Particle place(vec4 record[record_vec4s], Placement at) {
-  return shaped(placed_center(at, record[0].xyz), scaled(at, record[0].w), vec3(0.0), vec4(turned(at, record[1].xyz), scaled(at, record[1].w)),
+  return shaped(placed_center(at, record[0].xyz), scaled(at, record[0].w), vec3(0.0), vec3(0.0), vec4(turned(at, record[1].xyz), scaled(at, record[1].w)),
                 vec4(scaled(at, record[2].x), scaled(at, record[2].y), 0.0, 0.0));
 }
-Particle unpack(vec4 payload[payload_vec4s]) { return shaped(payload[0].xyz, payload[0].w, vec3(0.0), payload[1], payload[2]); }
+Particle unpack(vec4 payload[payload_vec4s]) { return shaped(payload[0].xyz, payload[0].w, vec3(0.0), vec3(0.0), payload[1], payload[2]); }
 #endif
 void pack(Particle p, out vec4 payload[payload_vec4s]) {
   payload[0] = vec4(p.center, p.bound);
   payload[1] = vec4(p.h, p.shaft);
-  payload[2] = vec4(p.head, p.head_length, 0.0, 0.0);
+  payload[2] = vec4(p.head, p.head_length, p.h_rest.xy);
 #ifdef NEAR_EYE
-  payload[3] = vec4(p.rest, 0.0);
+  payload[3] = vec4(p.rest, p.h_rest.z);
 #endif
 }
 
@@ -60,6 +62,14 @@ Proxy proxy(Particle p) {
   return hull_proxy(parts, z_min, p.center, p.bound);
 }
 
+#ifdef NEAR_EYE
+float settled(Ray ray, Particle p, bool head, bool disc, bool tail, float t) {
+  vec2 shaft = vec2(p.shaft, 0.0), low = divided(times(vec2(2.0 * p.head, 0.0), length_in_pairs(p.h, p.h_rest)), vec2(max(p.head_length, 1e-30), 0.0));
+  return disc ? onto_disc(ray, p.center, p.rest, p.h, p.h_rest, tail ? -1.0 : 1.0, tail ? 0.0 : p.head_length, t)
+              : onto_side(ray, p.center, p.rest, p.h, p.h_rest, head ? low : shaft, head ? vec2(0.0) : shaft, t);
+}
+#endif
+
 bool intersect(Ray ray, Particle p, out Interval hit) {
   OwnRay own = own_ray(ray, p.center, p.rest);
   Axis axis = axis_of(p.h);
@@ -72,6 +82,11 @@ bool intersect(Ray ray, Particle p, out Interval hit) {
   vec2 s = vec2(in_head ? head.s.x : shaft.s.x, out_head ? head.s.y : shaft.s.y);
   bool met = on_shaft || on_head;
   hit = interval_of(own, met ? s : vec2(0.0), in_head ? head.first : shaft.first, out_head ? head.last : shaft.last, vec2(0.0));
+#ifdef NEAR_EYE
+  bool ahead = r.dz > 0.0; // discs are the tail's and the head's base
+  hit.t_in = met ? settled(ray, p, in_head, in_head ? head.disc.x : shaft.disc.x, !in_head && ahead, hit.t_in) : hit.t_in;
+  hit.t_out = met ? settled(ray, p, out_head, out_head ? head.disc.y : shaft.disc.y, !out_head && !ahead, hit.t_out) : hit.t_out;
+#endif
   return met;
 }
 vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) { return normal_from_own(exit ? hit.ends.xyz : hit.local.xyz); }
