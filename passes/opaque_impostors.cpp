@@ -132,6 +132,7 @@ private:
   // do not know them, or the maps are beyond what a cast can hold: then tiles leave surfaces, as quads do.
   bool place_tiles(rg::PassContext& context, const ParticleStore& store) {
     TileWish wish{context.frame().get<Scene>(), context.frame().get<View>(), selection_};
+    wish.alarm = context.frame().get<FrameOptions>().show_depth_violation;
     wish.placing.exact = aovs_ != 0 || context.kept("depth");
     const bool several = offsets_.size() > 1;
     if (several) wish.placing.margin = 0.5; // of any sample to its pixel's center

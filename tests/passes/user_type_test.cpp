@@ -307,10 +307,14 @@ TEST_F(UserTypes, NaNIsLeftOutOrMagenta) {
     EXPECT_EQ(p.id[p.at(30, 30)], 0u);
     EXPECT_EQ(p.id[p.at(47, 30)], 0xFFFFFFFFu) << "NaN there";
   }
-  const Picture debug = draw(scene, view, {.expansion = Expansion::Vertex, .show_depth_violation = true});
-  EXPECT_EQ(debug.display[debug.at(47, 30)], glm::u8vec4(255, 0, 255, 255));
-  EXPECT_NE(debug.display[debug.at(30, 30)], glm::u8vec4(255, 0, 255, 255));
-  EXPECT_EQ(debug.id[debug.at(52, 30)], 0xFFFFFFFFu);
+  for (const Expansion e : {Expansion::Vertex, Expansion::Geometry, Expansion::Compute}) {
+    const Picture debug = draw(scene, view, {.expansion = e, .show_depth_violation = true});
+    EXPECT_EQ(debug.display[debug.at(47, 30)], glm::u8vec4(255, 0, 255, 255));
+    EXPECT_EQ(debug.id[debug.at(47, 30)], 0u);
+    EXPECT_FLOAT_EQ(debug.depth[debug.at(47, 30)], 10.0f) << "where the ray is nearest to the center";
+    EXPECT_NE(debug.display[debug.at(30, 30)], glm::u8vec4(255, 0, 255, 255));
+    EXPECT_EQ(debug.id[debug.at(52, 30)], 0xFFFFFFFFu);
+  }
 }
 
 TEST_F(UserTypes, BrokenTextsNameTheirLine) {

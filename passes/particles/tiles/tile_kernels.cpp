@@ -108,7 +108,7 @@ const gpu::ComputePipeline& TileKernels::shading(const CastKey& key, const Besid
   const bool cast = what == Shading::Cast;
   std::vector<gpu::SpecializationConstant> constants{
       gpu::spec(0, d.orthographic), gpu::spec(1, d.light_count), gpu::spec(2, d.local_lights), gpu::spec(3, d.specular_model),
-      gpu::spec(6, d.head_light_only), gpu::spec(10, d.aovs),
+      gpu::spec(5, d.show_depth_violation), gpu::spec(6, d.head_light_only), gpu::spec(10, d.aovs),
       gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth), gpu::spec(16, key.display_only),
       gpu::spec(7, d.proxy_slack), gpu::spec(8, d.type_number), gpu::spec(18, static_cast<std::uint32_t>(d.phase))};
   if (!cast) constants.insert(constants.end(), {gpu::spec(4, d.per_particle_color), gpu::spec(20, what == Shading::SplatsAlone)});

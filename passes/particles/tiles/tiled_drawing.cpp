@@ -41,6 +41,7 @@ bool TiledDrawing::place(gpu::Device device, const ParticleStore& store, const g
   key_.type = type;
   key_.phase = wish.phase;
   key_.proxy_slack = wish.slack;
+  key_.show_depth_violation = wish.alarm;
   if (wish.phase != Phase::Opaque) unlit(key_);
   if (wish.phase == Phase::Shadow) {
     key_.per_particle_color = false;

@@ -28,6 +28,7 @@ struct TileWish {
   std::uint32_t slot{};        // of the store's placements
   float slack{};               // phase Shadow: thinner casters, in pixels, are widened
   TilePlacing placing{};
+  bool alarm{};                // magenta where a type from files gives NaN
 };
 
 class TiledDrawing {

@@ -114,7 +114,11 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Wi
   Ray ray = orthographic ? Ray(vec3(quick, 0.0), vec3(0.0, 0.0, 1.0)) : Ray(vec3(0.0), vec3(quick, 1.0));
   float t;
   vec3 normal;
-  if (display_only) {
+  bool quickly = display_only;
+#ifdef HAS_ALARM
+  if (show_depth_violation) quickly = false; // an intersection tells
+#endif
+  if (quickly) {
     t = pixel_key / dot(ray.direction, ray.direction);
     normal = normal_at(ray, particle, t);
   } else {
@@ -126,6 +130,10 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Wi
   }
   vec4 material = u.material;
   if (!one_material) material = materials[winner.material];
+#ifdef HAS_ALARM
+  bool alarm = type_alarm;
+  if (alarm) own = vec3(1.0, 0.0, 1.0);
+#endif
   vec3 color = own;
   if (phase != 0) {
     if (!changed) return;
@@ -158,6 +166,9 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Wi
 #endif
     color = shade(Surface(ray.origin + t * ray.direction, normal, -normalize(ray.direction)), own, material);
   }
+#ifdef HAS_ALARM
+  if (alarm) color = own;
+#endif
   if (!changed) return;
   nearest[at] = pixel_key;
   write_color(at, map_pixel(vec4(color, 1.0)));

@@ -58,8 +58,9 @@ bool tile_nearer(TileTest s, float x, float y, inout float key) {
   float shift = -dot(f, d) / max(dot(d, d), 1e-30);
   real t_in = real(0.0), t_out = real(0.0);
   bool met = hit(shape_from(real3(s.c.xyz), real2(s.a.w, s.b.w)), real3(f + shift * d), real3(d), t_in, t_out);
-  float entry = (s.a.z + (shift + float(t_in))) * (orthographic ? 1.0 : 1.0 + x * x + y * y);
-  bool nearer = s.c.w != 0.0 && met && t_in <= t_out && entry < key;
+  bool alarm = show_depth_violation && met && (isnan(float(t_in)) || isnan(float(t_out)));
+  float entry = (s.a.z + (alarm ? shift : shift + float(t_in))) * (orthographic ? 1.0 : 1.0 + x * x + y * y);
+  bool nearer = s.c.w != 0.0 && ((met && t_in <= t_out) || alarm) && entry < key;
   key = nearer ? entry : key;
   return nearer;
 }
