@@ -51,7 +51,8 @@ Ray LayerTracer::local(const Ray& ray, std::uint32_t placed) const {
 void LayerTracer::add(const Ray& ray, double limit, std::uint32_t placed, std::uint32_t record,
                       std::vector<Layer>& out) const {
   const Placed& owner = world_.transparent_placed[placed];
-  const auto interval = owner.tree->shape->intersect(particle(*owner.tree->chunks, record), ray);
+  const Shape& shape = *owner.tree->shape;
+  const auto interval = (shape.united ? shape.united : shape.intersect)(particle(*owner.tree->chunks, record), ray);
   if (!interval) return;
   const std::uint64_t id = owner.first_id + owner.tree->chunks->rows[record];
   const auto uncut = [&](double t) { return t > 0.0 && t >= near_; };

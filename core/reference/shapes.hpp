@@ -17,7 +17,8 @@
 //   box           r[1] = quaternion, r[2] = (half extents, 0)
 //   polyline      r[1] = (h, radius), r[2] = (n, 0), r[3] = (n, 0): a capsule of which the part before the plane through
 //                 center - h with normal r[2], and behind the one through center + h with normal r[3], belongs to neighbors; n = 0: all
-//                 of it. Where a plane ends it there is no surface
+//                 of it. Where a plane ends it there is no surface. r[2] or r[3] = (h, radius > 0): no plane, but the neighbor
+//                 there, with which a transparent one is one body: see `united`
 //   superquadric  r[1] = quaternion, r[2] = (semi-axes, 0), r[3] = (e1, e2, 0, 0)
 // A quaternion turns the solid's axes into the data set's and counts by its direction alone. A solid without
 // extent (no radius, an axis of length 0, but for the capsule without length, which is a sphere) is never met.
@@ -64,6 +65,9 @@ struct Shape {
   glm::dvec3 (*normal)(const Particle&, const Ray&, bool exit);
   // About the smallest radius of curvature, for the bar on normals.
   double (*curvature)(const Particle&);
+  // As intersect(), of a transparent particle that makes one body with neighbors that it overlaps: without what is theirs. What is within two
+  // of them belongs to the one that the ray enters first. nullptr: the same as intersect().
+  std::optional<Interval> (*united)(const Particle&, const Ray&){};
 };
 
 const Shape* find_shape(std::string_view type); // nullptr: not known

@@ -9,6 +9,7 @@
 #include "core/reference/shapes_local.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -191,8 +192,37 @@ bool cut(Stretch& s, const Local& at, const glm::dvec3& through, const glm::dvec
 std::optional<Stretch> polyline(const Particle& p, const Local& at) {
   auto s = capsule(p, at);
   const glm::dvec3 end(0, 0, at.frame.half);
-  if (!s || !cut(*s, at, end, into(at.frame.axes, xyz(p, 3))) || !cut(*s, at, -end, into(at.frame.axes, -xyz(p, 2)))) return std::nullopt;
+  const auto plane = [&](std::size_t k) { return p.record[k].w > 0.0f ? glm::dvec3(0) : into(at.frame.axes, xyz(p, k)); };
+  if (!s || !cut(*s, at, end, plane(3)) || !cut(*s, at, -end, -plane(2))) return std::nullopt;
   return s;
+}
+
+// The polyline's segment where it is transparent. Ends of two segments that are nearer to each other than 1e-5 of their size are one, the
+// earlier segment's: two of one radius share the ball at their joint.
+std::optional<Interval> united_polyline(const Particle& p, const Ray& ray) {
+  const Local at = local(p, ray);
+  const auto whole = capsule(p, at), part = polyline(p, at);
+  if (!part) return std::nullopt;
+  Interval own{part->in.t, part->out.t, part->in.inner, part->out.inner};
+  for (const std::size_t k : {std::size_t{2}, std::size_t{3}}) {
+    if (!(p.record[k].w > 0.0f)) continue;
+    const std::array<glm::vec4, 2> record{glm::vec4(0), p.record[k]};
+    const Particle other{p.center + (k == 2 ? -1.0 : 1.0) * (xyz(p, 1) + xyz(p, k)), 0.0, record};
+    const Local there = local(other, ray);
+    const auto s = capsule(other, there);
+    if (!s) continue;
+    const double in = there.t - at.t + s->in.t, out = there.t - at.t + s->out.t;
+    if (in >= whole->out.t || out <= whole->in.t) continue;
+    const double sizes = glm::length(xyz(p, 1)) + double(p.record[1].w) + glm::length(xyz(p, k)) + double(p.record[k].w);
+    const double tie = (k == 2 ? -1e-5 : 1e-5) * sizes / glm::length(ray.direction);
+    const bool enters_there = in < whole->in.t - tie, leaves_there = out > whole->out.t + tie;
+    if (enters_there && leaves_there) return std::nullopt;
+    if (leaves_there) own.inner_out = true;
+    if (!enters_there || out <= own.t_in) continue;
+    own.t_in = std::min(out, own.t_out);
+    own.inner_in = true;
+  }
+  return Interval{at.t + own.t_in, at.t + own.t_out, own.inner_in, own.inner_out};
 }
 
 using Solve = std::optional<Stretch> (*)(const Particle&, const Local&);
@@ -246,7 +276,7 @@ double mean_radius(const Particle& p) { return 0.5 * (double(p.record[1].w) + do
 } // namespace
 
 constexpr Shape capsule_shape{"capsule", capsule_bounds, intersect<capsule>, normal<capsule>, radius_of};
-constexpr Shape polyline_shape{"polyline", capsule_bounds, intersect<polyline>, normal<polyline>, radius_of};
+constexpr Shape polyline_shape{"polyline", capsule_bounds, intersect<polyline>, normal<polyline>, radius_of, united_polyline};
 constexpr Shape cylinder_shape{"cylinder", frustum_bounds, intersect<cylinder>, normal<cylinder>, mean_radius};
 constexpr Shape cone_shape{"cone", frustum_bounds, intersect<cone>, normal<cone>, mean_radius};
 constexpr Shape arrow_shape{"arrow", arrow_bounds, intersect<arrow>, normal<arrow>, radius_of};

@@ -2,7 +2,8 @@
 // The maker of polylines: rows of one chain, in the order of the file, joined by capsules. A row is the segment from its point
 // to the chain's next one (so the last row of a chain draws nothing; a chain of one row is a ball). Where two segments meet they end at
 // the plane that halves their angle, if each holds what the other's ball leaves to it there: radii are equal, and each is longer
-// than radius / cos(half the turn); then everything that one reaches beyond the plane is within the other. Else they overlap.
+// than radius / cos(half the turn); then everything that one reaches beyond the plane is within the other. Else they overlap, and each
+// record has the other's axis and radius in the plane's place, so that transparent ones can tell what is whose.
 #include "core/scene/attributes.hpp"
 #include "core/scene/codes.hpp"
 #include "core/scene/glyphs.hpp"
@@ -45,6 +46,13 @@ glm::dvec3 plane_between(const Segment& a, const Segment& b) {
   const double half_turn = std::sqrt(std::max(0.0, 0.5 * (1.0 + glm::dot(u, v)))); // its cosine
   if (!(std::min(a.length, b.length) * half_turn > 1.0001 * a.radius)) return glm::dvec3(0);
   return glm::normalize(u + v);
+}
+
+// A joint as records have it: (plane's normal, 0), else (h, radius) of the segment that overlaps with this one, else 0.
+glm::vec4 joint(const Segment& a, const Segment& b, const Segment& other) {
+  const glm::dvec3 plane = plane_between(a, b);
+  if (plane != glm::dvec3(0)) return {glm::vec3(plane), 0.0f};
+  return a.drawn && b.drawn ? glm::vec4(glm::vec3(0.5 * other.way), static_cast<float>(other.radius)) : glm::vec4(0);
 }
 
 double mean_length(const std::vector<Segment>& segments) {
@@ -91,8 +99,8 @@ Glyphs make_polyline(const FrameContext& context, const DataDesc& desc, const st
     if (!s.drawn) continue;
     glm::vec4* record = out.record(row);
     record[0] = glm::vec4(glm::vec3(0.5 * s.way), static_cast<float>(s.radius));
-    if (before[row] != none) record[1] = glm::vec4(glm::vec3(plane_between(segments[before[row]], s)), 0.0f);
-    if (next[row] != none) record[2] = glm::vec4(glm::vec3(plane_between(s, segments[next[row]])), 0.0f);
+    if (before[row] != none) record[1] = joint(segments[before[row]], s, segments[before[row]]);
+    if (next[row] != none) record[2] = joint(s, segments[next[row]], segments[next[row]]);
     out.finest[row] = s.radius;
     out.bounds[row] = (0.5 * s.length + s.radius) * glyph_padding;
     out.half[row] = (0.5 * glm::abs(s.way) + s.radius) * glyph_padding;

@@ -4,11 +4,14 @@
 #include "graph_test.hpp"
 
 #include "core/reference/reference.hpp"
+#include "core/reference/shapes.hpp"
 #include "core/scene/glyphs.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -18,7 +21,7 @@ namespace {
 using passes::Expansion;
 
 // Points and the chain of each, through the maker that scenes use.
-Glyphs make(const std::vector<glm::dvec3>& points, const std::vector<std::int64_t>& chains, double radius) {
+Glyphs make(const std::vector<glm::dvec3>& points, const std::vector<std::int64_t>& chains, const std::vector<double>& radii) {
   data::Frame frame;
   frame.count = points.size();
   std::vector<double> positions;
@@ -28,9 +31,12 @@ Glyphs make(const std::vector<glm::dvec3>& points, const std::vector<std::int64_
   DataDesc desc;
   desc.type = "polyline";
   Diagnostics diagnostics;
-  Glyphs made = make_polyline({.frame = frame}, desc, std::vector<double>(points.size(), radius), diagnostics);
+  Glyphs made = make_polyline({.frame = frame}, desc, radii, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors());
   return made;
+}
+Glyphs make(const std::vector<glm::dvec3>& points, const std::vector<std::int64_t>& chains, double radius) {
+  return make(points, chains, std::vector<double>(points.size(), radius));
 }
 std::vector<Glyph> drawn(const Glyphs& made) {
   std::vector<Glyph> out;
@@ -137,6 +143,115 @@ params = { oit = "exact" }
   EXPECT_EQ(off, 0u);
 }
 
+// How many stretches of a ray lie within the union of the segments, as whole capsules, and how long they are together.
+struct Within {
+  std::size_t parts{};
+  double length{};
+};
+Within within_all(const std::vector<Glyph>& segments, const reference::Ray& ray) {
+  std::vector<std::pair<double, double>> stretches;
+  for (const Glyph& g : segments) {
+    const std::array<glm::vec4, 2> record{glm::vec4(0), g.rest[0]};
+    if (const auto s = reference::find_shape("capsule")->intersect({g.center, g.bound, record}, ray)) stretches.emplace_back(s->t_in, s->t_out);
+  }
+  std::sort(stretches.begin(), stretches.end());
+  Within out;
+  double end = -1e30;
+  for (const auto& [from, to] : stretches) {
+    out.parts += from > end;
+    out.length += std::max(0.0, to - std::max(from, end)) * glm::length(ray.direction);
+    end = std::max(end, to);
+  }
+  return out;
+}
+
+struct Chain {
+  std::string name{};
+  std::vector<glm::dvec3> points{};
+  std::vector<double> radii{}; // of each segment
+};
+std::vector<Chain> chains_of_every_kind() {
+  std::vector<Chain> out;
+  Chain unlike{"unlike radii", {}, {0.5, 0.3, 0.45, 0.2, 0.35, 0.5, 0.1, 0.4}};
+  for (int i = 0; i < 8; ++i) unlike.points.emplace_back(1.1 * i - 3.8, 0.5 * (i % 2), 0.4 * (i % 3));
+  out.push_back(unlike);
+  out.push_back({"sharp turns", {{-3, -1.8, 0}, {2.5, -1.2, 0.3}, {-2.5, -0.2, 0}, {2.5, 0.6, -0.2}, {-2.5, 1.4, 0.4}}, std::vector<double>(5, 0.3)});
+  out.push_back({"a hairpin", {{-2.5, 0, 0}, {1.5, 0.1, 0}, {-1.8, 0.5, 0.3}}, {0.5, 0.5, 0.5}});
+  out.push_back({"back the same way", {{-3, 0, 0}, {2, 0, 0}, {-1, 0, 0}}, {0.4, 0.4, 0.4}});
+  out.push_back({"back the same way, thinner", {{-3, 0.1, 0}, {2, 0, 0.5}, {-1, 0.1, 0}}, {0.5, 0.3, 0.3}});
+  Chain dense{"short steps", {}, std::vector<double>(40, 0.5)};
+  for (int i = 0; i < 40; ++i) dense.points.emplace_back(0.18 * i - 3.5, std::sin(0.14 * i), 0.6 * std::cos(0.1 * i));
+  out.push_back(dense);
+  Chain tapering{"short steps, tapering", {}, {}};
+  for (int i = 0; i < 30; ++i) {
+    tapering.points.emplace_back(0.24 * i - 3.5, std::sin(0.2 * i), 0);
+    tapering.radii.push_back(0.6 - 0.015 * i);
+  }
+  out.push_back(tapering);
+  return out;
+}
+
+// Of pixels beside which rays meet as many stretches: those, those that meet any, and those where `red`, of a red chain of alpha or density 0.5
+// on black, is not what the union says.
+struct Counts {
+  std::size_t sure{}, seen{}, off{};
+};
+template <class Red> Counts against_union(const std::vector<Glyph>& segments, const View& view, bool absorbs, const Red& red) {
+  Counts out;
+  const glm::dmat3 back = glm::transpose(view.rotation);
+  for (std::uint32_t i = 0; i < view.size.width * view.size.height; ++i) {
+    const auto here = [&](double dx, double dy) {
+      const double x = i % view.size.width + dx, y = i / view.size.width + dy;
+      return within_all(segments, {view.eye + back * view.ray_origin(x, y), back * view.ray_direction(x, y)});
+    };
+    const Within w = here(0, 0);
+    bool alike = true;
+    for (const glm::dvec2& d : {glm::dvec2(2e-3, 0), {-2e-3, 0}, {0, 2e-3}, {0, -2e-3}}) alike = alike && here(d.x, d.y).parts == w.parts;
+    if (!alike) continue;
+    ++out.sure;
+    out.seen += w.parts > 0;
+    out.off += std::abs(1.0 - (absorbs ? std::exp(-0.5 * w.length) : std::pow(0.5, double(w.parts))) - red(i)) > 1.0 / 255.0;
+  }
+  return out;
+}
+Scene red_chain(const std::vector<Glyph>& segments, bool absorbs) {
+  Scene scene = glyph_scene("polyline", segments);
+  scene.batches[0].color = glm::dvec3(1, 0, 0);
+  scene.batches[0].alpha = 0.5;
+  scene.batches[0].density = absorbs ? 0.5 : 0.0;
+  scene.lights.clear();
+  scene.ambient = glm::dvec3(1);
+  scene.background = {0, 0, 0, 1};
+  return scene;
+}
+
+// Transparent chains with joints that no plane parts: as many surfaces, and as much absorbed, as the union of their capsules says.
+TEST_F(Polyline, TransparentJointsOfEveryKindAreOneBody) {
+  for (const Chain& chain : chains_of_every_kind()) {
+    const std::vector<Glyph> segments = drawn(make(chain.points, std::vector<std::int64_t>(chain.points.size(), 0), chain.radii));
+    for (const bool absorbs : {false, true}) {
+      SCOPED_TRACE(chain.name + (absorbs ? ", absorbing" : ""));
+      const Scene scene = red_chain(segments, absorbs);
+      for (const View& view : {look_orthographic(scene, {0, 0, 10}, {0, 0, 0}, {120, 66}, 5), look(scene, {9, 2, 3}, {0, 0, 0}, {80, 66}, 35), look(scene, {-2, 3, 12}, {0, 0, 0}, {106, 60}, 30)}) {
+        const Colors colors = draw_graph(scene, view, exact_glyphs, "glyphs.color", {.expansion = absorbs ? Expansion::Geometry : Expansion::Vertex});
+        const Counts counts = against_union(segments, view, absorbs, [&](std::uint32_t i) { return double(colors.texels[i].r); });
+        EXPECT_GT(counts.sure, colors.texels.size() * 97 / 100);
+        EXPECT_GT(counts.seen, counts.sure / 30);
+        EXPECT_EQ(counts.off, 0u);
+        const ReferencePicture reference = render_reference(scene, view);
+        EXPECT_EQ(against_union(segments, view, absorbs, [&](std::uint32_t i) { return reference.color[i].r; }).off, 0u);
+      }
+    }
+  }
+  // Without their neighbors in their records they overlap.
+  std::vector<Glyph> segments = drawn(make(chains_of_every_kind()[0].points, std::vector<std::int64_t>(8, 0), chains_of_every_kind()[0].radii));
+  for (Glyph& g : segments) g.rest[1] = g.rest[2] = glm::vec4(0);
+  const Scene apart = red_chain(segments, false);
+  const View view = look_orthographic(apart, {0, 0, 10}, {0, 0, 0}, {180, 100}, 5);
+  const Colors colors = draw_graph(apart, view, exact_glyphs, "glyphs.color");
+  EXPECT_GT(against_union(segments, view, false, [&](std::uint32_t i) { return double(colors.texels[i].r); }).off, 300u);
+}
+
 TEST(PolylineMaker, JoinsRowsOfAChainInTheOrderOfTheFile) {
   const Glyphs made = make({{0, 0, 0}, {9, 0, 0}, {2, 0, 0}, {9, 2, 0}, {4, 0, 0}, {5, 5, 5}, {4.1, 0, 0}}, {1, 2, 1, 2, 1, 3, 1}, 0.25);
   EXPECT_EQ(made.centers[0], glm::dvec3(1, 0, 0)) << "to row 2";
@@ -146,7 +261,7 @@ TEST(PolylineMaker, JoinsRowsOfAChainInTheOrderOfTheFile) {
   EXPECT_EQ(glm::vec3(made.rest[3 * 5]), glm::vec3(0));
   EXPECT_EQ(made.rest[3 * 0 + 2], glm::vec4(1, 0, 0, 0)) << "cut where it goes on";
   EXPECT_EQ(made.rest[3 * 2 + 1], glm::vec4(1, 0, 0, 0));
-  EXPECT_EQ(made.rest[3 * 2 + 2], glm::vec4(0)) << "the next one is shorter than thick: they overlap";
+  EXPECT_EQ(made.rest[3 * 2 + 2], glm::vec4(glm::vec3(0.5 * (4.1 - 4.0), 0, 0), 0.25f)) << "the next one is shorter than thick: they overlap, and it is known";
   EXPECT_EQ(made.rest[3 * 0 + 1], glm::vec4(0)) << "nothing before";
 }
 

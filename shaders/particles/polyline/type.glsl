@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Particle type `polyline`: one segment of a chain of capsules. Record: (center relative to the chunk, radius of the bounding ball),
-// (h, radius), (n, -) of the plane at center - h, (n, -) of the one at center + h: where a neighbor goes on, the segment ends at the
+// (h, radius), (n, 0) of the plane at center - h, (n, 0) of the one at center + h: where a neighbor goes on, the segment ends at the
 // plane that halves the angle with it, so that a chain's segments share its inside without overlap. A zero vector: the chain
-// ends there (or the neighbor is too short or of another radius), with the capsule's ball. What a plane cuts off is
-// the neighbor's; the cut is an inner end, no surface (interface.glsl). Formulas: those of the capsule.
+// ends there, with the capsule's ball. What a plane cuts off is the neighbor's; the cut is an inner end, no surface (interface.glsl).
+// A neighbor with which no plane shares the inside (too short, of another radius) stands in the plane's place as its (h, radius > 0): an
+// opaque segment overlaps with it, of a transparent one each ray shows what that neighbor leaves. Formulas: those of the capsule.
 #include "particles/axial.glsl"
 
 #define CASTER_VEC4S 4
 #define HAS_INNER_ENDS
 const int record_vec4s = 4;
 #ifdef NEAR_EYE
-const int payload_vec4s = 5;
+const int payload_vec4s = 6;
 #else
 const int payload_vec4s = 4;
 #endif
@@ -20,14 +21,23 @@ struct Particle {
   float bound;
   vec3 h;      // own space, as all that follows
   float radius;
-  vec3 low, high; // unit normals of the planes at -h and h, along the chain; or 0
+  vec4 low, high;    // (unit normals of the planes at -h and h, along the chain; or 0; 0); ORDERED: or (h, radius) of the neighbor there
   vec3 rest, h_rest; // what rounding took from center and h; 0 but for NEAR_EYE
 };
 
 vec3 unit_or_zero(vec3 v) { return dot(v, v) > 0.0 ? normalize(v) : vec3(0.0); }
 
+vec4 joint(vec4 stored, Placement at) {
+#ifdef ORDERED
+  vec4 neighbor = vec4(turned(at, stored.xyz), scaled(at, stored.w));
+#else
+  vec4 neighbor = vec4(0.0);
+#endif
+  return stored.w > 0.0 ? neighbor : vec4(unit_or_zero(turned(at, stored.xyz)), 0.0);
+}
+
 Particle shaped(vec4 record[record_vec4s], Placement at, vec4 ball, vec4 first, vec3 rest, vec3 h_rest) {
-  return Particle(ball.xyz, ball.w, first.xyz, first.w, unit_or_zero(turned(at, record[2].xyz)), unit_or_zero(turned(at, record[3].xyz)), rest, h_rest);
+  return Particle(ball.xyz, ball.w, first.xyz, first.w, joint(record[2], at), joint(record[3], at), rest, h_rest);
 }
 #ifdef NEAR_EYE
 Particle place_near(vec4 record[record_vec4s], Placement at, vec4 near[4]) { return shaped(record, at, near[0], near[3], near[1].xyz, near[2].yzw); }
@@ -40,17 +50,18 @@ Particle unpack(vec4 payload[payload_vec4s]) {
   vec3 rest = vec3(0.0), h_rest = vec3(0.0);
 #ifdef NEAR_EYE
   rest = payload[4].xyz;
-  h_rest = vec3(payload[2].w, payload[3].w, payload[4].w);
+  h_rest = payload[5].xyz;
 #endif
-  return Particle(payload[0].xyz, payload[0].w, payload[1].xyz, payload[1].w, payload[2].xyz, payload[3].xyz, rest, h_rest);
+  return Particle(payload[0].xyz, payload[0].w, payload[1].xyz, payload[1].w, payload[2], payload[3], rest, h_rest);
 }
 void pack(Particle p, out vec4 payload[payload_vec4s]) {
   payload[0] = vec4(p.center, p.bound);
   payload[1] = vec4(p.h, p.radius);
-  payload[2] = vec4(p.low, p.h_rest.x);
-  payload[3] = vec4(p.high, p.h_rest.y);
+  payload[2] = p.low;
+  payload[3] = p.high;
 #ifdef NEAR_EYE
-  payload[4] = vec4(p.rest, p.h_rest.z);
+  payload[4] = vec4(p.rest, 0.0);
+  payload[5] = vec4(p.h_rest, 0.0);
 #endif
 }
 
@@ -74,13 +85,73 @@ void cut_by(vec3 f, vec3 d, vec3 at, vec3 n, float radius, inout vec2 s, inout v
   s = gone ? vec2(beyond, -beyond) : vec2(first ? along : s.x, last ? along : s.y);
 }
 
-bool intersect(Ray ray, Particle p, out Interval hit) {
-  OwnRay own = own_ray(ray, p.center, p.rest);
+void cut_by_planes(OwnRay own, Particle p, vec3 low, vec3 high, inout vec2 s, inout vec2 inner) {
+  if (s.x <= s.y) cut_by(own.f, own.d, p.h, high, p.radius, s, inner);
+  if (s.x <= s.y) cut_by(own.f, own.d, -p.h, -low, p.radius, s, inner);
+}
+
+#ifdef ORDERED
+// Within the capsule (h, radius) around a center, all in own space.
+Stretch inside_other(OwnRay own, vec3 center, vec4 h_radius) {
+  vec3 f, f_rest, l, l_rest;
+  vec2 moved;
+  two_sum(own.f, -center, f, f_rest);
+  shift_in_pairs(f, f_rest + own.rest, own.d, l, l_rest, moved);
+  OwnRay there = OwnRay(l, own.d, vec2(0.0), l_rest);
+  Axis axis = axis_of(h_radius.xyz);
+  Stretch found = inside_capsule(there, axial(there, axis), axis, h_radius.xyz, h_radius.w);
+  found.s += moved.x + moved.y;
+  return found;
+}
+
+// What a ray has within both this segment (from whole.x to whole.y) and a neighbor (n) belongs to the one that it enters first, so that each
+// keeps one stretch and every end within the other is an inner one. Ends nearer than `tie` are one: the earlier segment of the chain has it.
+void leave_to(vec2 n, vec2 whole, float tie, bool earlier, inout vec2 s, inout vec2 inner) {
+  float e = earlier ? tie : -tie;
+  bool overlap = n.x <= n.y && n.x < whole.y && n.y > whole.x;
+  bool first = overlap && n.x < whole.x - e, last = overlap && n.y > whole.y + e, moved = first && n.y > s.x;
+  inner = vec2(moved ? 1.0 : inner.x, last ? 1.0 : inner.y);
+  s = first && last ? vec2(beyond, -beyond) : vec2(moved ? min(n.y, s.y) : s.x, s.y);
+}
+
+// A loop whose first turn is the segment's own: most have no neighbor to look at.
+Stretch stretch_of(OwnRay own, Particle p, out vec2 s, out vec2 inner) {
+  int turn = 0, turns = 1 + (p.low.w > 0.0 ? 1 : 0) + (p.high.w > 0.0 ? 1 : 0);
+  Stretch in_;
+  inner = vec2(0.0);
+  do {
+    bool mine = turn == 0, behind = turn == 1 && p.low.w > 0.0;
+    vec4 other = behind ? p.low : p.high;
+    vec3 center = behind ? -(p.h + other.xyz) : p.h + other.xyz;
+    Stretch found = inside_other(own, mine ? vec3(0.0) : center, mine ? vec4(p.h, p.radius) : other);
+    if (mine) {
+      in_ = found;
+      s = found.s;
+      cut_by_planes(own, p, p.low.w > 0.0 ? vec3(0.0) : p.low.xyz, p.high.w > 0.0 ? vec3(0.0) : p.high.xyz, s, inner);
+    } else {
+      float tie = lap * (p.radius + length(p.h) + other.w + length(other.xyz)) / length(own.d);
+      leave_to(found.s, in_.s, tie, !behind, s, inner);
+    }
+    ++turn;
+  } while (turn < turns);
+  return in_;
+}
+#else
+Stretch stretch_of(OwnRay own, Particle p, out vec2 s, out vec2 inner) {
   Axis axis = axis_of(p.h);
   Stretch in_ = inside_capsule(own, axial(own, axis), axis, p.h, p.radius);
-  vec2 s = in_.s, whole = s, inner = vec2(0.0);
-  if (s.x <= s.y) cut_by(own.f, own.d, p.h, p.high, p.radius, s, inner);
-  if (s.x <= s.y) cut_by(own.f, own.d, -p.h, -p.low, p.radius, s, inner);
+  s = in_.s;
+  inner = vec2(0.0);
+  cut_by_planes(own, p, p.low.xyz, p.high.xyz, s, inner);
+  return in_;
+}
+#endif
+
+bool intersect(Ray ray, Particle p, out Interval hit) {
+  OwnRay own = own_ray(ray, p.center, p.rest);
+  vec2 s, inner;
+  Stretch in_ = stretch_of(own, p, s, inner);
+  vec2 whole = in_.s;
   bool met = s.x <= s.y;
   hit = interval_of(own, met ? s : whole.x <= whole.y ? vec2(whole.x) : vec2(0.0), in_.first, in_.last, inner);
 #ifdef NEAR_EYE
@@ -121,7 +192,7 @@ struct TileTest { vec4 a, b, c; }; // (m, z, radius: negative where no ray meets
 
 TileTest tile_test(Particle p, bool alive) {
   vec2 m = orthographic ? p.center.xy : p.center.xy / p.center.z;
-  return TileTest(vec4(m, p.center.z, alive ? p.radius : -1.0), vec4(p.h, 0.0), vec4(folded(p.low), folded(p.high)));
+  return TileTest(vec4(m, p.center.z, alive ? p.radius : -1.0), vec4(p.h, 0.0), vec4(folded(p.low.xyz), folded(p.high.xyz)));
 }
 
 bool tile_nearer(TileTest s, float x, float y, inout float key) {
