@@ -3,6 +3,7 @@
 
 #include "core/base/diagnostic.hpp"
 #include "core/gpu/points.hpp"
+#include "passes/opaque_slots.hpp"
 #include "passes/particles/expansion_choice.hpp"
 #include "passes/particles/frame_uniform.hpp"
 #include "passes/particles/particle_store.hpp"
@@ -24,7 +25,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -34,28 +34,10 @@ namespace {
 
 using gpu::TextureFormat;
 
-struct AovSlot {
-  std::string_view name;
-  TextureFormat format;
-  AovBits bit;
-  std::string_view summary;
-};
-constexpr std::array<AovSlot, 3> aov_slots{{
-    {"aov_depth", TextureFormat::R32Float, aov_depth_bit, "distance along the view axis, +inf where nothing is"},
-    {"aov_id", TextureFormat::R32Uint, aov_id_bit, "particle id, 4294967295 where nothing is"},
-    {"aov_normal", TextureFormat::RGBA32Float, aov_normal_bit, "unit normal in world space, turned to the eye"},
-}};
-
 class OpaqueImpostors final : public rg::Pass {
 public:
   void declare(std::vector<rg::Slot>& slots, rg::Params& params) override {
-    slots.push_back({.name = "color", .access = rg::Access::ColorWrite, .summary = "scene-linear color over the background",
-                     .makes = rg::TextureSpec{.format = TextureFormat::RGBA16Float}, .copied_into = true});
-    slots.push_back({.name = "depth", .access = rg::Access::DepthWrite, .summary = "n / z, reverse-Z",
-                     .makes = rg::TextureSpec{.format = TextureFormat::Depth32Float}, .copied_into = true});
-    for (const AovSlot& aov : aov_slots)
-      slots.push_back({.name = std::string(aov.name), .access = rg::Access::ColorWrite, .summary = std::string(aov.summary),
-                       .makes = rg::TextureSpec{.format = aov.format}, .optional = true, .copied_into = true});
+    declare_opaque_slots(slots);
     selection_ = read_selection(params, params.has("blend") ? Opacity::All : Opacity::Opaque);
     states_ = read_states(params);
     shadow_inputs_.declare(slots, params);
@@ -68,11 +50,9 @@ public:
   }
 
   void prepare(rg::PassContext& context) override {
-    aovs_ = 0;
     targets_.clear();
     for (const std::string& slot : context.color_slots()) targets_.push_back(context.format(slot));
-    for (const AovSlot& aov : aov_slots)
-      if (context.connected(aov.name)) aovs_ |= aov.bit;
+    aovs_ = connected_aovs(context);
     depth_ = context.format("depth");
     deferred_ = shadow_inputs_.connected(context);
     if (deferred_ && states_.blend != 0) fail(Exit::BadInput, "P006", {}, "a pass with a shadow map shades each pixel once; it does not go with blend");
@@ -80,12 +60,7 @@ public:
   }
 
   gpu::Color clear_value(std::string_view slot, const rg::FrameInput& frame) override {
-    if (slot == "aov_depth") return {std::numeric_limits<double>::infinity(), 0, 0, 0};
-    if (slot == "depth") return {cleared_depth(states_), 0, 0, 0};
-    if (slot == "aov_id") return {4294967295.0, 0, 0, 0};
-    if (slot != "color") return {0, 0, 0, 0};
-    const glm::dvec4 b = frame.get<Scene>().background;
-    return {b.r, b.g, b.b, b.a};
+    return opaque_clear_value(slot, states_, frame);
   }
 
   [[nodiscard]] bool opens_attachments() const override { return true; }
@@ -98,24 +73,26 @@ public:
     if (!pipelines_) make_frame_group(device, store);
     const FrameBlock block = frame_block(scene, view);
     device.queue().write_buffer(frame_buffer_, 0, std::as_bytes(std::span(&block, 1)));
+    lights_ = shadow_inputs_.lights(context);
     choose(context);
     const Expansion expansion = report_.choice.expansion;
     const double largest_point = expansion == Expansion::Point ? double{gpu::max_point_size(device)} : 0.0;
-    lights_ = shadow_inputs_.lights(context);
     surfaces_first_ = deferred_;
-    const bool tiled = expansion == Expansion::Compute && place_tiles(context, store);
-    if (surfaces_first_ && expansion != Expansion::Compute) update_surfaces(context, surfaces_, false);
-    placed_ = tiled ? tiled_.rest() : store.place(scene, view, 0, largest_point);
-    report_.tiled = tiled ? tiled_.chunks() : 0;
+    edges_tiled_ = analytic_edges_ && expansion == Expansion::Compute && place_edges(context, store);
+    const bool all_by_quads = analytic_edges_ && !edges_tiled_;
+    const bool tiled = expansion == Expansion::Compute && !all_by_quads && wants_center(context) && place_tiles(context, store);
+    if (surfaces_first_ && (expansion != Expansion::Compute || all_by_quads)) update_surfaces(context, surfaces_, false);
+    placed_ = tiled ? tiled_.rest() : edges_tiled_ && !wants_center(context) ? PlacedView{} : store.place(scene, view, 0, largest_point);
+    report_.tiled = tiled ? tiled_.chunks() : edges_tiled_ ? edges_.chunks() : 0;
     report_.rastered = placed_.chunks_placed;
     if (const auto& chosen = context.frame().get<FrameOptions>().chosen) chosen(report_);
     raster_ = expansion == Expansion::Geometry ? expansion : Expansion::Vertex;
-    reserve_indices(device, placed_);
+    reserve_indices(device);
     if (offsets_.size() > 1) return record_samples(context, tiled);
     if (!steps_.whole()) return record_steps(context);
+    if (analytic_edges_) return record_edges(context, tiled);
     if (tiled) record_tiles(context);
     if (tiled && !surfaces_first_ && placed_.draws.empty()) return;
-    if (analytic_edges_) return record_edges(context);
     if (surfaces_first_) return draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_.get(), tiled);
     gpu::RenderPass pass = context.begin_attachments(tiled);
     draw_particles(context, pass, placed_, {frame_group_, targets_, aovs_}, nullptr);
@@ -144,8 +121,7 @@ private:
       const bool tiled = place();
       surfaces_first_ = !tiled_.rest().draws.empty();
       if (!surfaces_first_) {
-        if (!tile_shadows_) tile_shadows_ = std::make_unique<TileShadows>(context.device());
-        tile_shadows_->update(lights_, wish.view);
+        update_tile_shadows(context);
         return tiled;
       }
     }
@@ -155,6 +131,22 @@ private:
       wish.placing.material = [this](const Batch& batch) { return surfaces_->material_of(batch); };
     }
     return place();
+  }
+
+  void update_tile_shadows(rg::PassContext& context) {
+    if (!tile_shadows_) tile_shadows_ = std::make_unique<TileShadows>(context.device());
+    tile_shadows_->update(lights_, context.frame().get<View>());
+  }
+
+  // The picture with analytic edges, apart from the one of the centers. False: tiles cannot draw all of it, or not with these shadow maps.
+  bool place_edges(rg::PassContext& context, const ParticleStore& store) {
+    if (deferred_ && !TileShadows::can_hold(lights_)) return false;
+    TileWish wish{context.frame().get<Scene>(), context.frame().get<View>(), selection_};
+    wish.slot = 0x80000000u; // of no map and no camera
+    wish.placing.margin = TileEdges::margin;
+    if (!edges_.place(context.device(), store, pipelines_->frame_layout(), wish) || !edges_.rest().draws.empty()) return false;
+    if (deferred_) update_tile_shadows(context);
+    return true;
   }
 
   void record_tiles(rg::PassContext& context) {
@@ -167,14 +159,17 @@ private:
                         .background = clear_value("color", context.frame())};
     targets.shadows = shadows_for_tiles();
     targets.cache_directory = cache_directory(context);
-    if (surfaces_first_) {
-      targets = surface_targets(targets.encoded_depth);
-    } else if (const auto next = draw_on || offsets_.size() > 1 ? std::nullopt : context.successor("color"); next && TileRenderer::works(context.device(), next->target.format())) {
-      targets.map = next->map;
-      targets.color = next->target;
-      context.take_over("color");
-    }
+    if (surfaces_first_) targets = surface_targets(targets.encoded_depth);
+    else if (!draw_on && offsets_.size() == 1 && !analytic_edges_) take_over_map(context, targets);
     tiled_.record(context.encoder(), frame_group_, targets, [&](std::string_view stage) { context.mark(stage); });
+  }
+
+  static void take_over_map(rg::PassContext& context, TileTargets& targets) {
+    const auto next = context.successor("color");
+    if (!next || !TileRenderer::works(context.device(), next->target.format())) return;
+    targets.map = next->map;
+    targets.color = next->target;
+    context.take_over("color");
   }
 
   [[nodiscard]] TileTargets surface_targets(const gpu::Texture& encoded_depth) const {
@@ -186,17 +181,12 @@ private:
     return display ? display->cache_directory : std::string();
   }
 
-  void reserve_indices(gpu::Device& device, const PlacedView& placed) {
-    std::uint32_t most = 0;
-    for (const ParticleDraw& draw : placed.draws) most = std::max(most, draw.particles);
-    if (raster_ == Expansion::Vertex) indices_.reserve(device, most);
+  void reserve_indices(gpu::Device& device) {
+    for (const ParticleDraw& draw : placed_.draws)
+      if (raster_ == Expansion::Vertex) indices_.reserve(device, draw.particles);
   }
 
-  struct Into {
-    gpu::BindGroup frame{};
-    std::vector<TextureFormat> formats{};
-    std::uint32_t aovs{};
-  };
+  struct Into { gpu::BindGroup frame{}; std::vector<TextureFormat> formats{}; std::uint32_t aovs{}; };
   struct Targets { // views of attachments, color first, and what they are cleared to
     std::vector<gpu::TextureView> views{};
     std::vector<gpu::Color> clear{};
@@ -282,10 +272,13 @@ private:
   }
 
   // Depth and AOVs are those of the pixel's center, from a picture of their own, if anybody looks at them.
+  [[nodiscard]] bool wants_center(const rg::PassContext& context) const {
+    return (!analytic_edges_ && offsets_.size() == 1) || aovs_ != 0 || context.kept("depth");
+  }
   void record_center(rg::PassContext& context, bool tiled) {
-    if (aovs_ == 0 && !context.kept("depth")) return;
+    if (!wants_center(context)) return;
     if (tiled) record_tiles(context);
-    if (!tiled || surfaces_first_)
+    if (!tiled || surfaces_first_ || !placed_.draws.empty())
       draw_picture(context, frame_group_, own_targets(context), aovs_, context.texture("depth"), surfaces_first_ ? surfaces_.get() : nullptr, tiled);
   }
 
@@ -295,9 +288,15 @@ private:
     draw_picture(context, frame_group_, {{context.texture("color")}, {clear_value("color", context.frame())}}, 0, context.texture("depth"), nullptr);
   }
 
-  void record_edges(rg::PassContext& context) {
-    update_surfaces(context, edge_surfaces_, true);
-    record_center(context, false);
+  void record_edges(rg::PassContext& context, bool tiled) {
+    if (!edges_tiled_) update_surfaces(context, edge_surfaces_, true);
+    record_center(context, tiled);
+    if (edges_tiled_) {
+      TileTargets targets{.color = context.whole_texture("color"), .background = clear_value("color", context.frame()), .edges = true,
+                          .shadows = deferred_ ? tile_shadows_.get() : nullptr, .cache_directory = cache_directory(context)};
+      take_over_map(context, targets);
+      return edges_.record(context.encoder(), frame_group_, targets, [&](std::string_view stage) { context.mark(stage); });
+    }
     const Size2d size = context.frame().get<View>().size;
     gpu::Device device = context.device();
     if (make_scratch(device, edge_depth_, "edges.depth", {size.width, size.height, 1}, depth_)) edge_depth_view_ = edge_depth_.create_view();
@@ -345,8 +344,8 @@ private:
     const gpu::Device device = context.device();
     const ExpansionNeeds needs{device, scene, context.frame().get<View>(), selection_, states_, context.format("color"),
                                static_cast<std::uint32_t>(std::popcount(aovs_)),
-                               analytic_edges_ ? "analytic edges" : "",
-                               deferred_ ? Phase::Surface : Phase::Opaque, steps_.step};
+                               options.expansion == Expansion::Auto && analytic_edges_ && deferred_ && !TileShadows::can_hold(lights_) ? "analytic edges and these shadow maps" : "",
+                               deferred_ ? Phase::Surface : Phase::Opaque, steps_.step, analytic_edges_};
     report_ = {.kind = "opaque_impostors", .choice = choose_expansion(needs, options, chooser_), .automatic = options.expansion == Expansion::Auto};
     lacks_tiles_ = report_.automatic ? device_lacks_tiles(device) : std::string();
   }
@@ -379,7 +378,8 @@ private:
   gpu::BindGroup frame_group_;
   QuadIndices indices_;
   PlacedView placed_;
-  TiledDrawing tiled_;
+  TiledDrawing tiled_, edges_;
+  bool edges_tiled_{}; // in this frame: edges_ draws the picture, the rest only what is read of the centers
   std::unique_ptr<SurfaceShading> surfaces_, edge_surfaces_;
   bool analytic_edges_{}, boxes_{};
   gpu::Texture edge_depth_;

@@ -75,6 +75,8 @@ std::string why_not(Expansion expansion, const ExpansionNeeds& needs) {
   return expansion == Expansion::Compute ? why_not_tiles(needs) : std::string();
 }
 
+static_assert(costed_expansions.back() == Expansion::Compute);
+
 ExpansionChoice choose_expansion(const ExpansionNeeds& needs, const FrameOptions& options, ExpansionChooser& chooser) {
   std::array<std::string, costed_expansions.size()> refused;
   for (std::size_t i = 0; i < refused.size(); ++i) refused[i] = why_not(costed_expansions[i], needs);
@@ -86,7 +88,11 @@ ExpansionChoice choose_expansion(const ExpansionNeeds& needs, const FrameOptions
     if (std::string unknown = why_no_costs(needs, contents.type); !unknown.empty())
       for (std::size_t i = 0; i < refused.size(); ++i)
         if (costed_expansions[i] == Expansion::Compute && refused[i].empty()) refused[i] = unknown;
+    const bool edges_by_tiles = needs.edges && refused.back().empty();
+    if (edges_by_tiles)
+      for (std::size_t i = 0; i + 1 < refused.size(); ++i) refused[i] = "outlines are better by tiles";
     choice = chooser.choose(options.costs ? *options.costs : shipped_costs(gpu::DeviceType::Cpu), contents, refused, options.frames);
+    if (edges_by_tiles) choice.why = "tiles have the better outlines";
   } else {
     const std::string reason = why_not(options.expansion, needs);
     std::vector<std::string> can;

@@ -22,9 +22,10 @@ struct ExpansionNeeds {
   const DrawStates& states;
   gpu::TextureFormat color{};
   std::uint32_t aovs{}; // how many are made
-  std::string_view beyond_tiles{}; // what the pass does besides and tiles do not ("analytic edges"); empty: nothing
+  std::string_view beyond_tiles{}; // what the pass does besides and tiles do not ("shadow maps of method depth"); empty: nothing
   Phase phase{Phase::Opaque};      // or Surface, Shadow
   Step step{Step::Depth};
+  bool edges{}; // analytic ones: `auto` takes tiles where they can draw, since their pictures differ from those of quads
 };
 
 // A sentence, or empty: `expansion` can draw it.

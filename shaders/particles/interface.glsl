@@ -30,6 +30,9 @@
 //   TileTest tile_test(Particle, bool alive)         not alive: no ray meets it
 //   bool tile_nearer(TileTest, float x, float y, inout float key)   does the entry at the ray (x, y, 1) lie before
 //                                                    the key (depth times |ray|^2)? then the key is replaced
+//   #define HAS_TILE_OUTLINE, Outline tile_outline(Particle, float x, float y, float focal, out float key)   for analytic edges: as
+//                                                    outline() at the ray (x, y, 1), and the key of the entry (on a miss: of the ray's middle);
+//                                                    such a type has one vec4 of payload
 //   #define TILE_LOOP                                where tile_nearer() is long: it is compiled once, not for each pixel
 //   vec3 normal_at(Ray, Particle, float t)           unit, outward, at a point of the surface; to 1e-4 rad where a
 //                                                    particle covers a pixel or more

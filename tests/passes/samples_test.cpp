@@ -144,7 +144,7 @@ TEST_P(Samples, AovsAreThoseOfThePixelsCenter) {
 
 // Averaged in scene-linear light: half a pixel of white over black shows as 188, not as 128.
 // ---- analytic edges ----------------------------------------------------------------------------------
-class AnalyticEdges : public Discs {
+class AnalyticEdges : public Samples {
 protected:
   // Discs of one radius (pixels) on a grid, at many places relative to the pixels; `move` shifts all.
   static Scene grid(double radius, int n, double spacing, glm::dvec2 move = {0, 0}) {
@@ -161,7 +161,11 @@ protected:
     Scene any = scene_of({{0, 0, 0, 100}});
     return look_orthographic(any, {0.5 * side, 0.5 * side, 500}, {0.5 * side, 0.5 * side, 0}, {side, side}, side);
   }
-  Picture drawn(const Scene& scene, std::uint32_t side) { return draw(scene, view(side), {}, {"opaque.edges=\"analytic\""}); }
+  Picture drawn(const Scene& scene, std::uint32_t side) {
+    Picture p = draw(scene, view(side), {}, {"opaque.edges=\"analytic\""});
+    EXPECT_EQ(tiled_, GetParam() == passes::Expansion::Compute);
+    return p;
+  }
   static double energy(const Picture& p) {
     double sum = 0;
     for (const glm::vec4& c : p.color) sum += c.g;
@@ -169,7 +173,9 @@ protected:
   }
 };
 
-TEST_F(AnalyticEdges, CoverageOfDiscsOfEightPixels) {
+INSTANTIATE_TEST_SUITE_P(, AnalyticEdges, testing::Values(passes::Expansion::Vertex, passes::Expansion::Compute), [](const auto& p) { return std::string(to_string(p.param)); });
+
+TEST_P(AnalyticEdges, CoverageOfDiscsOfEightPixels) {
   // The area of disc and pixel together: chords, integrated over the pixel's rows.
   const Scene scene = grid(8, 5, 24);
   std::vector<glm::dvec4> area(std::size_t{126} * 126, glm::dvec4(0));
@@ -186,7 +192,7 @@ TEST_F(AnalyticEdges, CoverageOfDiscsOfEightPixels) {
 }
 
 // Perspective: outlines are ellipses, up to 25 degrees off the axis.
-TEST_F(AnalyticEdges, CoverageInPerspective) {
+TEST_P(AnalyticEdges, CoverageInPerspective) {
   Scene scene = grid(8, 6, 24);
   const View camera = look(scene, {75, 75, 200}, {75, 75, 0}, {190, 190}, 50.0);
   const auto area = render_reference_area(reference::build_world(scene), camera, 12);
@@ -194,7 +200,7 @@ TEST_F(AnalyticEdges, CoverageInPerspective) {
 }
 
 // FC-53: the light of spheres below a pixel is that of their area.
-TEST_F(AnalyticEdges, EnergyBelowAPixel) {
+TEST_P(AnalyticEdges, EnergyBelowAPixel) {
   for (const double radius : {0.02, 0.1, 0.3, 0.5, 0.7, 0.84, 0.9, 1.0}) {
     const Picture p = drawn(grid(radius, 15, 8), 128);
     EXPECT_NEAR(energy(p) / (225 * 3.14159265 * radius * radius), 1.0, 0.02) << radius;
@@ -202,21 +208,104 @@ TEST_F(AnalyticEdges, EnergyBelowAPixel) {
 }
 
 // FC-54: slow motion changes no brightness; one sample a pixel does.
-TEST_F(AnalyticEdges, NoFlickerInSlowMotion) {
+TEST_P(AnalyticEdges, NoFlickerInSlowMotion) {
+  const int frames = GetParam() == passes::Expansion::Compute ? 5 : 10; // kernels are compiled for each picture here
   const auto deviation = [&](double radius, const std::string& setting) {
     std::vector<double> energies;
-    for (int frame = 0; frame < 10; ++frame)
+    for (int frame = 0; frame < frames; ++frame)
       energies.push_back(energy(draw(grid(radius, 15, 8, {0.05 * frame, 0.03 * frame}), view(128), {}, {setting})));
     double mean = 0, square = 0;
-    for (const double e : energies) mean += e / 10;
-    for (const double e : energies) square += (e - mean) * (e - mean) / 10;
+    for (const double e : energies) mean += e / frames;
+    for (const double e : energies) square += (e - mean) * (e - mean) / frames;
     return std::sqrt(square) / mean;
   };
   for (const double radius : {0.1, 0.5, 1.0}) EXPECT_LT(deviation(radius, "opaque.edges=\"analytic\""), 0.01) << radius;
   EXPECT_GT(deviation(0.1, "opaque.edges=\"sampled\""), 0.05) << "the measure sees flicker";
 }
 
-TEST_F(AnalyticEdges, AovsAreThoseOfThePixelsCenter) {
+// Where outlines crowd, tiles composite what each of the particles around covers: nearer to the truth than one sample.
+TEST_P(AnalyticEdges, InACloud) {
+  const Scene scene = scene_of(cloud(3000, 4.0, 0.06, 0.25));
+  const View camera = look(scene, {3, 2, 12}, {0, 0, 0}, {160, 120});
+  const auto area = render_reference_area(reference::build_world(scene), camera, 8);
+  const auto error = [&](const std::string& edges) {
+    const Picture p = draw(scene, camera, {}, {"opaque.edges=\"" + edges + "\""});
+    double sum = 0;
+    for (std::size_t i = 0; i < area.size(); ++i) sum += std::pow(p.color[i].g - area[i].g, 2);
+    return std::sqrt(sum / static_cast<double>(area.size()));
+  };
+  const double one = error("sampled"), edges = error("analytic");
+  EXPECT_EQ(tiled_, GetParam() == passes::Expansion::Compute);
+  if (GetParam() == passes::Expansion::Compute) EXPECT_LE(edges, 0.5 * one);
+  else EXPECT_LE(edges, 1.5 * one);
+}
+
+// The same outlines by quads and by tiles; straight colors over a transparent background.
+TEST_P(AnalyticEdges, OverATransparentBackground) {
+  Scene scene = grid(8, 5, 24);
+  scene.background = {0, 0, 0, 0};
+  const Picture p = draw(scene, view(126), {}, {"opaque.edges=\"analytic\""}), opaque = drawn(grid(8, 5, 24), 126);
+  std::size_t partly = 0;
+  for (std::size_t i = 0; i < p.color.size(); ++i) {
+    EXPECT_NEAR(p.color[i].a, opaque.color[i].g, 2e-3f);
+    if (p.color[i].a < 0.01f || p.color[i].a > 0.99f) continue;
+    ++partly;
+    EXPECT_NEAR(p.color[i].g, 1.0f, 2e-3f);
+  }
+  EXPECT_GT(partly, 500u);
+}
+
+// In shadows of maps that tiles hold and in those that they do not, with what the center's AOVs need besides or without.
+TEST_P(AnalyticEdges, WithShadows) {
+  graph_ = "shadowed";
+  std::vector<glm::dvec4> spheres = cloud(300, 4.0, 0.1, 0.4);
+  Scene scene = scene_of(spheres, {0xFFFFFFFFu});
+  scene.lights = {{.name = "sun", .kind = LightKind::Directional, .direction = {0.3, -1, 0.2}, .intensity = 0.8, .shadows = true}};
+  const View camera = look(scene, {0, 12, 22}, {0, 0, 0}, {160, 120});
+  const auto area = render_reference_area(reference::build_world(scene), camera, 8);
+  const auto error = [&](const std::string& edges) {
+    const Picture p = draw(scene, camera, {}, {"shadow.size=1024", "opaque.edges=\"" + edges + "\""});
+    double sum = 0;
+    for (std::size_t i = 0; i < area.size(); ++i) sum += std::pow(p.color[i].g - area[i].g, 2);
+    return std::sqrt(sum / static_cast<double>(area.size()));
+  };
+  const double edges = error("analytic");
+  const bool tiled = tiled_;
+  EXPECT_EQ(tiled, GetParam() == passes::Expansion::Compute);
+  EXPECT_LE(edges, (tiled ? 0.6 : 1.6) * error("sampled"));
+}
+
+// `auto` takes tiles wherever they can draw, whatever it costs: a picture does not depend on the machine.
+TEST_F(Discs, EdgesAreDrawnByTilesOfAuto) {
+  passes::ExpansionReport chosen;
+  const Scene scene = discs();
+  const Picture p = draw(scene, view(scene), {.chosen = [&](const passes::ExpansionReport& report) { chosen = report; }}, {"opaque.edges=\"analytic\""});
+  EXPECT_EQ(chosen.choice.expansion, passes::Expansion::Compute);
+  EXPECT_EQ(chosen.choice.why, "tiles have the better outlines");
+  EXPECT_GT(chosen.tiled, 0u);
+}
+
+// Maps that tiles cannot ask: all is drawn by quads.
+TEST_P(AnalyticEdges, WithMapsThatTilesCannotAsk) {
+  graph_ = "shadowed";
+  Scene scene = scene_of({{0, 0, 0, 2}, {0, 5, 0, 0.5}});
+  scene.lights = {{.name = "sun", .kind = LightKind::Directional, .direction = {0, -1, 0}, .intensity = 0.8, .shadows = true}};
+  const View camera = look(scene, {0, 12, 12}, {0, 2, 0}, {120, 120});
+  const Picture p = draw(scene, camera, {}, {"shadow.method=\"depth\"", "opaque.edges=\"analytic\""});
+  EXPECT_FALSE(tiled_);
+  EXPECT_EQ(p.id[p.at(60, 75)], 0u);
+}
+
+// A sphere before the eye's plane is nothing for tiles: then all is drawn by quads, outlines and all.
+TEST_P(AnalyticEdges, QuadsWhereTilesCannotDrawAll) {
+  const Scene scene = scene_of({{0, 0, 0, 1}, {0, 0, 9.9, 0.3}});
+  const View camera = look(scene, {0, 0, 10}, {0, 0, 0}, {120, 120});
+  const Picture p = draw(scene, camera, {}, {"opaque.edges=\"analytic\""});
+  EXPECT_FALSE(tiled_);
+  EXPECT_GT(p.color.size(), 0u);
+}
+
+TEST_P(AnalyticEdges, AovsAreThoseOfThePixelsCenter) {
   const Scene scene = grid(8, 6, 24);
   const Picture one = draw(scene, view(150)), blended = drawn(scene, 150);
   EXPECT_EQ(one.id, blended.id);
@@ -224,7 +313,7 @@ TEST_F(AnalyticEdges, AovsAreThoseOfThePixelsCenter) {
   EXPECT_EQ(one.normal, blended.normal);
 }
 
-TEST_F(AnalyticEdges, NotWithSeveralSamples) {
+TEST(AnalyticEdgesOfAGraph, NotWithSeveralSamples) {
   rg::Registry registry;
   register_builtin_passes(registry);
   Diagnostics found;

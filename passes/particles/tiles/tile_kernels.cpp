@@ -26,9 +26,9 @@ gpu::BindGroupLayout layout_of(gpu::Device& device, std::string_view label, std:
 constexpr Type in = Type::ReadOnlyStorageBuffer, io = Type::StorageBuffer;
 constexpr std::array slice_types{in, in, in};
 constexpr std::array binning_types{in, in, io, io, io, io, io, io, io, io, io, io, io, io}; // binning.glsl, splat.comp
-constexpr std::array cast_types{in, in, in, in, in, io, in, in, io, io, io, io, io, io, io}; // cast.comp
+constexpr std::array cast_types{in, in, in, in, in, io, in, in, io, io, io, io, io, io, io, io}; // cast.comp
 constexpr std::array splat_far_types{in, in, io};
-constexpr std::array resolve_types{in, in, in, in, in, in, in, in, io, io, io, io, io, io, io}; // resolve_splats.comp, the eighth without use
+constexpr std::array resolve_types{in, in, in, in, in, in, in, in, io, io, io, io, io, io, io, io}; // resolve_splats.comp, the eighth without use
 
 } // namespace
 
@@ -111,6 +111,7 @@ const gpu::ComputePipeline& TileKernels::shading(const CastKey& key, const Besid
       gpu::spec(5, d.show_depth_violation), gpu::spec(6, d.head_light_only), gpu::spec(10, d.aovs),
       gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth), gpu::spec(16, key.display_only),
       gpu::spec(7, d.proxy_slack), gpu::spec(8, d.type_number), gpu::spec(18, static_cast<std::uint32_t>(d.phase))};
+  if (key.edges) constants.push_back(gpu::spec(21, true));
   if (!cast) constants.insert(constants.end(), {gpu::spec(4, d.per_particle_color), gpu::spec(20, what == Shading::SplatsAlone)});
   if (besides.shadows) {
     for (std::uint32_t k = 0; k < s.lights.size(); ++k) constants.push_back(gpu::spec(31 + k, s.lights[k]));

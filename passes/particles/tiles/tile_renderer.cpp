@@ -48,6 +48,7 @@ std::vector<std::uint32_t> background_words(gpu::Color c, std::uint32_t words) {
 ParticlePipelineKey drawing_of(ParticlePipelineKey key, const TileTargets& targets) {
   key.aovs = (targets.depth ? aov_depth_bit : 0u) | (targets.id ? aov_id_bit : 0u) | (targets.normal ? aov_normal_bit : 0u);
   if (targets.shadows) key.head_light_only = false;
+  if (targets.edges) key.proxy_slack = TileEdges::slack;
   return key;
 }
 
@@ -57,7 +58,7 @@ bool has_casters(const TileTargets& targets) { return targets.casters || targets
 
 bool TileRenderer::works(const gpu::Device& device, gpu::TextureFormat color) { return TileKernels::lanes(device) != 0 && words_of(color) != 0; }
 
-TileRenderer::TileRenderer(gpu::Device device, const gpu::BindGroupLayout& frame) : device_(device), kernels_(std::move(device), frame) {}
+TileRenderer::TileRenderer(gpu::Device device, const gpu::BindGroupLayout& frame) : device_(device), kernels_(std::move(device), frame), frame_(frame) {}
 
 bool TileRenderer::reserve(gpu::Buffer& buffer, std::string_view label, std::uint64_t bytes, Usage usage) {
   bytes = std::max<std::uint64_t>(bytes, 16);
@@ -135,9 +136,12 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.depth, "tiles.depth", targets.depth ? pixels * 4 : 0, storage);
   reserve(b.id, "tiles.id", targets.id || targets.casters_stay ? pixels * 4 : 0, storage);
   reserve(b.normal, "tiles.normal", targets.normal || has_casters(targets) ? pixels * 16 : 0, storage);
+  if (!targets.edges) return;
+  if (!edges_) edges_ = std::make_unique<TileEdges>(device_, frame_);
+  edges_->reserve(pixels);
 }
 
-void TileRenderer::make_groups(const TiledView& view) {
+void TileRenderer::make_groups(const TiledView& view, const gpu::Buffer& winners) {
   auto group = [&](std::string_view label, const gpu::BindGroupLayout& layout, std::initializer_list<const gpu::Buffer*> buffers) {
     std::vector<gpu::BindGroupEntry> entries;
     for (const gpu::Buffer* buffer : buffers) entries.push_back({.binding = static_cast<std::uint32_t>(entries.size()), .buffer = {buffer}});
@@ -152,14 +156,14 @@ void TileRenderer::make_groups(const TiledView& view) {
   const bool narrow = color_words_ == 1;
   cast_group_ = group("tiles.cast", kernels_.cast_layout(),
                       {&b.materials, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.nearest,
-                       narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color});
+                       narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color, &winners});
   resolve_groups_.clear();
   if (plan_.splats == 0) return;
   splat_far_group_ = group("tiles.splat_far", kernels_.splat_far_layout(), {&b.splats, &b.nearest, &b.far});
   for (const SliceBuffers& slice : view.slices)
     resolve_groups_.push_back(group("tiles.resolve", kernels_.resolve_layout(),
                                     {&b.materials, &slice.records, &slice.rows, &slice.colors, &b.chunks, &b.draws, &b.splats, &b.draws, &b.nearest,
-                                     narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color}));
+                                     narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color, &winners}));
 }
 
 void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& targets) {
@@ -182,6 +186,7 @@ void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& target
     encoder.clear_buffer(b.color, 0, 0, no_caster);
   }
   if (!targets.color) return;
+  if (targets.edges) edges_->clear(encoder, pixels);
 
   const gpu::Color background = targets.map ? targets.map->apply(targets.background) : targets.background;
   const std::vector<std::uint32_t> words = background_words(background, color_words_);
@@ -336,6 +341,13 @@ void TileRenderer::resolve_splats(gpu::CommandEncoder& encoder, const gpu::BindG
   }
 }
 
+void TileRenderer::record_edges(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const CastKey& key, const TileTargets& targets, const Mark& mark) {
+  const bool narrow = color_words_ == 1;
+  const Buffers& b = buffers_;
+  edges_->record(encoder, frame_group, block_, targets.background, key, {narrow ? b.color : b.unused_color, narrow ? b.unused_color : b.color}, targets.map, targets.cache_directory);
+  mark("edges");
+}
+
 void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& targets) {
   const gpu::Extent3d size{block_.width, block_.height, 1};
   auto copy = [&](const gpu::Buffer& from, const gpu::Texture& to) {
@@ -356,10 +368,10 @@ void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, c
   color_words_ = targets.color ? words_of(targets.color.format()) : targets.casters ? 4 : targets.casters_stay ? 1 : 0;
   const CastKey key{.drawing = drawing_of(drawing, targets), .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
               .display_only = color_words_ == 1 && !targets.depth && !targets.id && !targets.normal && !targets.encoded_depth && drawing.phase == Phase::Opaque,
-              .color_words = color_words_,
+              .edges = targets.edges, .color_words = color_words_,
               .pixel_map = targets.map ? targets.map->id : std::string(), .shadows = targets.shadows ? targets.shadows->key() : TileShadows::Key{}};
   reserve_frame(key.drawing, targets);
-  make_groups(view);
+  make_groups(view, targets.edges ? edges_->winners() : buffers_.unused_color);
   clear(encoder, targets);
   mark("clear");
   first_ = true;
@@ -371,6 +383,7 @@ void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, c
   }
   flags_fresh_ = false;
   resolve_splats(encoder, frame_group, key, targets, mark);
+  if (targets.edges) record_edges(encoder, frame_group, key, targets, mark);
   copy_out(encoder, targets);
   mark("copy");
 }

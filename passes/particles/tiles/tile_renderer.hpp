@@ -8,6 +8,7 @@
 
 #include "core/gpu/gpu.hpp"
 #include "passes/particles/particle_store.hpp"
+#include "passes/particles/tiles/tile_edges.hpp"
 #include "passes/particles/tiles/tile_kernels.hpp"
 #include "passes/particles/tiles/tile_plan.hpp"
 
@@ -26,6 +27,7 @@ struct TileTargets {
   bool casters_stay{};             // instead, they are left in casters()
   gpu::Color background{};         // scene-linear
   const rg::PixelMap* map{};       // applied to colors and background; `color` is then what the map's pass would write
+  bool edges{};                    // analytic ones, of color: nothing else is drawn then (tile_edges.hpp)
   const TileShadows* shadows{};    // of lights; null: no light has a map
   std::string cache_directory{};   // of SPIR-V; empty: none
 };
@@ -54,7 +56,7 @@ private:
   };
   bool reserve(gpu::Buffer& buffer, std::string_view label, std::uint64_t bytes, gpu::BufferUsage usage);
   void reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets);
-  void make_groups(const TiledView& view);
+  void make_groups(const TiledView& view, const gpu::Buffer& winners);
   void list_splats(const TiledView& view);
   void record_splats(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, const ParticlePipelineKey& placed, const Mark& mark);
   void record_splat_far(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, bool orthographic, const Mark& mark);
@@ -63,10 +65,13 @@ private:
   void clear(gpu::CommandEncoder& encoder, const TileTargets& targets);
   void record_step(gpu::CommandEncoder& encoder, std::size_t index, const TiledView& view, const gpu::BindGroup& frame_group, const CastKey& key,
                    const TileTargets& targets, const Mark& mark);
+  void record_edges(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const CastKey& key, const TileTargets& targets, const Mark& mark);
   void copy_out(gpu::CommandEncoder& encoder, const TileTargets& targets);
 
   gpu::Device device_;
   TileKernels kernels_;
+  std::unique_ptr<TileEdges> edges_{};
+  gpu::BindGroupLayout frame_;
   TilePlan plan_{};
   Buffers buffers_{};
   std::vector<std::uint32_t> arguments_{}, regions_{}; // the template of all steps' arguments; where each step's start

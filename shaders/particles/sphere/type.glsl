@@ -139,6 +139,36 @@ bool tile_nearer(TileTest s, float x, float y, inout float key) {
   key = nearer ? entry : key;
   return nearer;
 }
+
+// As outline() below. Along its gradient the polynomial q is a quadratic again, whose nearer root is where the outline runs.
+#define HAS_TILE_OUTLINE
+Outline tile_outline(Particle p, float x, float y, float focal, out float key) {
+  Outline o;
+  float z = p.center.z, r2 = p.radius * p.radius, z2 = z * z;
+  vec2 ray = vec2(x, y);
+  if (orthographic) {
+    vec2 u = ray - p.center.xy;
+    float distance = length(u);
+    o.inside = focal * (p.radius - distance);
+    o.inward = distance > 0.0 ? u / -distance : vec2(1.0, 0.0);
+    o.radius = focal * p.radius;
+    o.offset = -focal * u;
+    key = z - sqrt(max(r2 - distance * distance, 0.0));
+    return o;
+  }
+  vec2 m = p.center.xy / z, u = ray - m;
+  float A = 1.0 + dot(m, m), m_u = dot(m, u);
+  float q = r2 * (1.0 + dot(ray, ray)) - z2 * (A * dot(u, u) - m_u * m_u);
+  vec2 slope = 2.0 * (r2 * ray - z2 * (A * u - m_u * m));
+  float steep = length(slope);
+  o.inward = steep > 0.0 ? slope / steep : vec2(1.0, 0.0);
+  float m_n = dot(m, o.inward), bend = 2.0 * (r2 - z2 * (A - m_n * m_n));
+  o.inside = focal * 2.0 * q / (steep + sqrt(max(steep * steep - 2.0 * bend * q, 1e-30)));
+  o.radius = focal * p.radius / z;
+  o.offset = -focal * u;
+  key = z * (A + m_u) - sqrt(max(q, 0.0));
+  return o;
+}
 #endif
 // Is the sphere thinner than `radius`, and does the ray pass it nearer than that? A miss has its interval at that place.
 bool passes_thin(Ray ray, Particle p, Interval hit, float radius) { return p.radius < radius && length(hit.local.xyz) < radius; }

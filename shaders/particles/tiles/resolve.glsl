@@ -21,19 +21,17 @@ Light light_here(int i) {
 #define FRAME_AMBIENT ambient_light
 #include "common/shading.glsl"
 
-#ifdef PIXEL_MAP
-#extension GL_EXT_samplerless_texture_functions : require
-#include "pixel_map.glsl" // made at run time: vec4 map_pixel(vec4), the display transform that would come next
-#else
-vec4 map_pixel(vec4 color) { return color; }
-#endif
+#define COLOR_BINDING 9
+#define COLOR_PAIRS_BINDING 14
+#include "particles/tiles/color_out.glsl"
+#include "particles/tiles/winners.glsl"
 
 layout(constant_id = 10) const uint aovs = 0u;           // bits: 1 depth, 2 id, 4 normal
 layout(constant_id = 13) const bool one_material = true; // of all batches: StepBlock.material
-layout(constant_id = 14) const uint color_words = 2u;    // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float; 0: no color
 layout(constant_id = 15) const bool want_depth = false;  // the encoded depth, for passes that draw after this one
 layout(constant_id = 8) const uint type_number = 0u;     // phase shadow: the type, as a map of casters says it
 layout(constant_id = 18) const int phase = 0;            // 0 opaque, 1 surface, 3 shadow, as in phase/surface.frag and phase/shadow.frag
+layout(constant_id = 21) const bool analytic_edges = false; // phase opaque: winners are kept, for edges.comp
 layout(constant_id = 16) const bool display_only = false; // colors of 8 bits are all that is asked for: normals may err by 1e-4
 
 bool want_id() {
@@ -48,30 +46,17 @@ bool want_id() {
 
 layout(std430, set = 1, binding = 0) readonly buffer Materials { vec4 materials[]; };
 layout(std430, set = 1, binding = 8) buffer Keys { float nearest[]; };       // per pixel: view depth times |ray|^2
-layout(std430, set = 1, binding = 9) writeonly buffer OutColor { uint out_color[]; };       // rgba8unorm
 layout(std430, set = 1, binding = 10) writeonly buffer OutEncoded { float out_encoded[]; };
 layout(std430, set = 1, binding = 11) writeonly buffer OutDepth { float out_depth[]; };
 layout(std430, set = 1, binding = 12) writeonly buffer OutId { uint out_id[]; };
 layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { uvec4 out_normal[]; }; // surface: and depth; shadow: payload
-layout(std430, set = 1, binding = 14) writeonly buffer OutColorPairs { PAIR out_color_pairs[]; }; // the wider formats
+layout(std430, set = 1, binding = 15) writeonly buffer OutWinners { PAIR out_winners[]; }; // with analytic_edges: winners.glsl
 
 void write_normal(uint at, vec4 v) { out_normal[at] = floatBitsToUint(v); }
 
-void write_color(uint at, vec4 color) {
-  if (color_words == 1u) {
-    // The shuffle keeps the packing out of the store's loop over lanes.
-    out_color[at] = subgroupShuffle(packUnorm4x8(color), gl_SubgroupInvocationID);
-  } else if (color_words == 2u) {
-    out_color_pairs[at] = pair(uvec2(packHalf2x16(color.rg), packHalf2x16(color.ba)));
-  } else {
-    out_color_pairs[2u * at] = pair(floatBitsToUint(color.rg));
-    out_color_pairs[2u * at + 1u] = pair(floatBitsToUint(color.ba));
-  }
-}
-
 // Uniform values that every pixel needs, taken once.
 struct Taken {
-  uint width;
+  uint width, pixels;
   vec4 viewport, sample_near_far, material;
   float inverse_rest;
   vec3 ambient, head_light; // times the material, with one_material
@@ -82,6 +67,7 @@ struct Taken {
 Taken take() {
   Taken u;
   u.width = step.width;
+  u.pixels = step.width * step.height;
   u.viewport = frame.viewport;
   u.sample_near_far = frame.sample_near_far;
   u.inverse_rest = frame.depth_near.y;
@@ -106,6 +92,25 @@ struct Winner {
   uint material, id; // id: with want_id() only
 };
 
+#ifdef HAS_TILE_OUTLINE
+// Where a pixel's particle is looked at, relative to the pixel's center, in tangents: at outlines 0.35 pixels within; of one smaller than a
+// pixel, at the place that has its mean brightness under a head light (phase/surface.frag).
+vec2 inner_place(Particle p, vec2 quick, float focal) {
+  float unused_key;
+  Outline o = tile_outline(p, quick.x, quick.y, focal, unused_key);
+  float far = length(o.offset);
+  vec2 moved = o.radius < 0.85 ? o.offset * (1.0 - 0.745 * o.radius / max(far, 1e-6)) : o.inward * max(0.35 - o.inside, 0.0);
+  return moved / focal;
+}
+void keep_winner(uint at, uint pixels, Particle p, vec3 color) {
+  vec4 payload[payload_vec4s];
+  pack(p, payload);
+  out_winners[at] = pair(winner_name(payload[0]));
+  out_winners[pixels + at] = pair(floatBitsToUint(payload[0].zw));
+  out_winners[2u * pixels + at] = pair(uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0))));
+}
+#endif
+
 // The surface at one pixel, shaded; written where `changed`. `quick`: the ray's x, y to visibility's precision.
 void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Winner winner) {
   uint at = pixel.y * u.width + pixel.x;
@@ -114,15 +119,32 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Wi
   Ray ray = orthographic ? Ray(vec3(quick, 0.0), vec3(0.0, 0.0, 1.0)) : Ray(vec3(0.0), vec3(quick, 1.0));
   float t;
   vec3 normal;
+#ifdef HAS_TILE_OUTLINE
+  vec2 moved = vec2(0.0);
+  float surface_key = pixel_key;
+  if (analytic_edges) {
+    moved = inner_place(particle, quick, u.viewport.z);
+    vec2 place = quick + moved;
+    tile_outline(particle, place.x, place.y, u.viewport.z, surface_key); // of the particle as it is, not widened
+    if (orthographic) ray.origin.xy = place;
+    else ray.direction.xy = place;
+  }
+#else
+  float surface_key = pixel_key;
+#endif
   bool quickly = display_only;
 #ifdef HAS_ALARM
   if (show_depth_violation) quickly = false; // an intersection tells
 #endif
   if (quickly) {
-    t = pixel_key / dot(ray.direction, ray.direction);
+    t = surface_key / dot(ray.direction, ray.direction);
     normal = normal_at(ray, particle, t);
   } else {
     ray = ray_through(vec2(pixel), u.sample_near_far.xy, u.viewport.w, u.inverse_rest);
+#ifdef HAS_TILE_OUTLINE
+    if (orthographic) ray.origin.xy += moved;
+    else ray.direction.xy += moved;
+#endif
     Interval hit;
     intersect(ray, particle, hit);
     normal = outward_normal(ray, particle, hit, false);
@@ -171,6 +193,9 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Wi
 #endif
   if (!changed) return;
   nearest[at] = pixel_key;
+#ifdef HAS_TILE_OUTLINE
+  if (analytic_edges) keep_winner(at, u.pixels, particle, color);
+#endif
   write_color(at, map_pixel(vec4(color, 1.0)));
   if (want_depth) out_encoded[at] = encode_depth(t);
   if ((aovs & 1u) != 0u) out_depth[at] = t;
