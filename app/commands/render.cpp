@@ -136,7 +136,7 @@ std::string command_of(const RenderArguments& a, const Job& job) {
   if (a.smoothing.edges != "auto") option("--edges", a.smoothing.edges);
   // A series is judged by its first frame; this one alone might be drawn otherwise.
   const bool smooth = !job.graph.opaque_settings.empty();
-  if (!a.smoothing.asked() && !a.reference && smooth && !takes_edges(job.graph, parse_expansion(a.scene.expansion), job.scene)) option("--edges", "analytic");
+  if (!a.smoothing.asked() && !a.reference && smooth && !takes_edges(job.graph, job.scene)) option("--edges", "analytic");
   if (a.transparent) add("--transparent");
   if (a.reference) add("--reference");
   if (a.bits != 8) option("--bits", fmt::format("{}", a.bits));
@@ -303,13 +303,12 @@ void draw_many(const RenderArguments& a, const Outputs& outputs, Job& job, Drawi
 // Analytic edges where they cost little. A series is judged by its first frame, whoever
 // draws which of its frames.
 void smooth(const RenderArguments& a, Job& job) {
-  const passes::Expansion expansion = parse_expansion(a.scene.expansion);
-  bool automatic = !a.smoothing.asked() && a.panel == 0 && std::max(job.size.width, job.size.height) <= default_panel && takes_edges(job.graph, expansion, {});
+  bool automatic = !a.smoothing.asked() && a.panel == 0 && std::max(job.size.width, job.size.height) <= default_panel && takes_edges(job.graph, {});
   if (automatic && !job.frames.empty()) {
     Diagnostics said_later;
     load_frame(job, job.frames.front(), said_later);
   }
-  automatic = automatic && takes_edges(job.graph, expansion, job.scene);
+  automatic = automatic && takes_edges(job.graph, job.scene);
   request_smoothing(job.graph, a.smoothing, automatic);
 }
 

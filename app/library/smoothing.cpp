@@ -7,12 +7,12 @@
 
 namespace mote::app {
 
-bool takes_edges(const GraphRequest& request, passes::Expansion expansion, const Scene& scene) {
+bool takes_edges(const GraphRequest& request, const Scene& scene) {
   for (const Batch& batch : scene.batches) {
     const passes::ParticleType* type = passes::find_particle_type(batch.type);
     if (!type || !type->analytic_edges) return false;
   }
-  return !request.linear && !request.every_aov && expansion != passes::Expansion::Compute && scene.particle_count() <= most_with_edges;
+  return !request.linear && !request.every_aov && scene.particle_count() <= most_with_edges;
 }
 
 void request_smoothing(GraphRequest& request, const Smoothing& smoothing, bool automatic) {

@@ -5,7 +5,6 @@
 
 #include "app/library/graphs.hpp"
 #include "app/library/job.hpp"
-#include "passes/frame.hpp"
 
 #include <cstdint>
 #include <string>
@@ -18,13 +17,13 @@ struct Smoothing {
   [[nodiscard]] bool asked() const { return samples != 0 || edges != "auto"; }
 };
 
-// The largest scene whose pictures get analytic edges by themselves: larger ones are drawn several times faster by tiles.
-inline constexpr std::uint64_t most_with_edges = 20'000;
+// The largest scene whose pictures get analytic edges by themselves: more particles are mostly thinner than a pixel, where single samples err less.
+inline constexpr std::uint64_t most_with_edges = 100'000;
 
 // May a picture have analytic edges without being asked for? Only one to look at: linear values with AOVs beside them (EXR) are
-// those of the pixel centers. AOVs in files of their own change nothing. `expansion`: what was asked for.
+// those of the pixel centers. AOVs in files of their own change nothing.
 // Every type of the scene must have them.
-[[nodiscard]] bool takes_edges(const GraphRequest& request, passes::Expansion expansion, const Scene& scene);
+[[nodiscard]] bool takes_edges(const GraphRequest& request, const Scene& scene);
 
 // What the user said, or `automatic` where nothing was said and no pass says something itself.
 void request_smoothing(GraphRequest& request, const Smoothing& smoothing, bool automatic);

@@ -74,7 +74,7 @@ bool Painter::set(const app::Job& job, std::shared_ptr<const ColorConfig> config
   try {
     // Outlines as `mote render` draws them.
     app::GraphRequest request = job.graph;
-    app::request_smoothing(request, {}, app::takes_edges(request, expansion_, job.scene));
+    app::request_smoothing(request, {}, app::takes_edges(request, job.scene));
     std::unique_ptr<app::FrameRenderer> made = make(request, *config, diagnostics);
     if (!made || diagnostics.has_errors()) return false;
     app::warn_of_graph(job, made->graph(), diagnostics);

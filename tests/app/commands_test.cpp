@@ -165,8 +165,15 @@ TEST_F(Commands, SmoothOutlinesWhereOnlyThePictureIsWanted) {
   const auto sampled = pixels("--edges sampled"), smooth = pixels("--edges analytic");
   EXPECT_NE(sampled, smooth);
   EXPECT_EQ(pixels(""), smooth);
-  EXPECT_EQ(pixels("--expansion vertex"), smooth);
-  EXPECT_EQ(pixels("--aov id=id.npy --dump opaque.color=c.npy"), smooth) << "what else is asked for does not change the picture";
+  EXPECT_EQ(pixels("--expansion compute"), smooth);
+  const auto by_quads = pixels("--expansion vertex");
+  EXPECT_NE(by_quads, smooth);
+  EXPECT_EQ(pixels("--expansion geometry"), by_quads);
+  EXPECT_EQ(pixels("--aov id=id.npy --aov depth=d.npy"), smooth) << "what else is asked for does not change the picture";
+  const auto dumped = pixels("--dump opaque.color=c.npy"); // shown from half floats then
+  int most = 0;
+  for (std::size_t i = 0; i < smooth.size(); ++i) most = std::max(most, std::abs(int{dumped[i]} - int{smooth[i]}));
+  EXPECT_LE(most, 1);
   for (const char* words : {"--samples 1", "--panel 48", "--set opaque.samples=1", "--set opaque.edges=sampled"})
     EXPECT_EQ(pixels(words), sampled) << words;
   EXPECT_NE(pixels("--samples 4"), sampled);

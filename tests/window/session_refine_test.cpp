@@ -14,7 +14,7 @@ TEST_F(SessionTest, LongPicturesAreDrawnInPieces) {
   write("shadowed.toml", std::string(scene) + "[[light]]\nname = \"side\"\nkind = \"directional\"\ndirection = [1.0, 1.0, -0.5]\nshadows = true\n");
   const std::vector<std::vector<std::string>> cases{{path("scene.toml")},
                                                     {path("scene.toml"), "opaque.samples=16"},
-                                                    {"spheres:3e4:fill"}, // too many for analytic edges
+                                                    {"spheres:2e5:fill"}, // too many for analytic edges
                                                     {"spheres:200:fit", "data[0].alpha=0.5"},
                                                     {path("shadowed.toml"), "graph=shadowed"}};
   for (const auto& words : cases) {
