@@ -79,10 +79,10 @@ public:
     const double largest_point = expansion == Expansion::Point ? double{gpu::max_point_size(device)} : 0.0;
     surfaces_first_ = deferred_;
     edges_tiled_ = analytic_edges_ && expansion == Expansion::Compute && place_edges(context, store);
-    const bool all_by_quads = analytic_edges_ && !edges_tiled_;
-    const bool tiled = expansion == Expansion::Compute && !all_by_quads && wants_center(context) && place_tiles(context, store);
+    const bool all_by_quads = analytic_edges_ && !edges_tiled_, nothing_else = edges_tiled_ && !wants_center(context);
+    const bool tiled = expansion == Expansion::Compute && !all_by_quads && !nothing_else && place_tiles(context, store);
     if (surfaces_first_ && (expansion != Expansion::Compute || all_by_quads)) update_surfaces(context, surfaces_, false);
-    placed_ = tiled ? tiled_.rest() : edges_tiled_ && !wants_center(context) ? PlacedView{} : store.place(scene, view, 0, largest_point);
+    placed_ = tiled ? tiled_.rest() : nothing_else ? PlacedView{} : store.place(scene, view, 0, largest_point);
     report_.tiled = tiled ? tiled_.chunks() : edges_tiled_ ? edges_.chunks() : 0;
     report_.rastered = placed_.chunks_placed;
     if (const auto& chosen = context.frame().get<FrameOptions>().chosen) chosen(report_);
@@ -272,9 +272,7 @@ private:
   }
 
   // Depth and AOVs are those of the pixel's center, from a picture of their own, if anybody looks at them.
-  [[nodiscard]] bool wants_center(const rg::PassContext& context) const {
-    return (!analytic_edges_ && offsets_.size() == 1) || aovs_ != 0 || context.kept("depth");
-  }
+  [[nodiscard]] bool wants_center(const rg::PassContext& context) const { return aovs_ != 0 || context.kept("depth"); }
   void record_center(rg::PassContext& context, bool tiled) {
     if (!wants_center(context)) return;
     if (tiled) record_tiles(context);

@@ -51,6 +51,19 @@ TEST_F(Explain, ManyParticlesOrManyFramesTakeTiles) {
   EXPECT_EQ(json::parse(bench.out)["expansion"], "compute") << "bench reports what was really used";
 }
 
+// Nothing is left to the rasterizer, whether the centers are wanted besides or not (no AOVs here).
+TEST_F(Explain, SamplesAndEdgesAreDrawnByTilesAlone) {
+  for (const char* words : {"--expansion compute --set opaque.samples=4", "--expansion compute --set opaque.edges=analytic", "--set opaque.edges=analytic"}) {
+    const Ran ran = mote(std::string("explain spheres:1e4:fit --size 96x54 --json ") + words);
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+    const json explained = json::parse(ran.out);
+    const json& opaque = *pass_named(explained, "opaque");
+    EXPECT_EQ(opaque["expansion"], "compute") << words;
+    EXPECT_GT(opaque["chunks"]["tiled"], 100) << words;
+    EXPECT_EQ(opaque["chunks"]["drawn"], 0) << words;
+  }
+}
+
 TEST_F(Explain, WhatTilesCannotIsNoCandidate) {
   write("points.csv", "x,y,z,opacity\n0,0,0,1\n1,0,0,1\n");
   write("scene.toml", "schema = 1\n[[data]]\nfile = \"points.csv\"\nmaterial = { model = \"phong\", specular = 0.5 }\n"

@@ -88,8 +88,8 @@ void add_cover(float key, float cover, uvec2 color) {
 // The particle that owns pixel `at`, if `some`: what it covers of the pixel of the ray (x, y, 1).
 void cover_by(Taken u, uint at, uvec2 name, bool some, vec2 ray) {
   vec4 payload[payload_vec4s];
-  payload[0] = winner_payload(name, words(winners[u.pixels + at]));
-  uvec2 color = words(winners[2u * u.pixels + at]);
+  payload[0] = winner_payload(name, words(winners[u.pixels + 2u * at]));
+  uvec2 color = words(winners[u.pixels + 2u * at + 1u]);
   float key;
   Outline o = tile_outline(unpack(payload), ray.x, ray.y, u.focal, key);
   float cover = disc_coverage(o.offset, o.radius, o.inside, o.inward);
@@ -124,7 +124,10 @@ vec4 blended(Taken u, ivec2 pixel, uint at, vec4 background) {
   cover_by(u, at, own, !own_empty, ray);
   do {
     uint i = uint(max(findLSB(fresh), 0)), there = index_of(u, pixel + neighbor(i));
-    cover_by(u, there, words(winners[there]), fresh != 0u, ray);
+    uvec2 who = name[0];
+#define PICK(k) who = i == uint(k) ? name[k] : who;
+    PICK(1) PICK(2) PICK(3) PICK(4) PICK(5) PICK(6) PICK(7)
+    cover_by(u, there, who, fresh != 0u, ray);
     fresh &= fresh - 1u;
   } while (fresh != 0u);
 

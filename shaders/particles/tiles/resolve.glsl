@@ -106,8 +106,8 @@ void keep_winner(uint at, uint pixels, Particle p, vec3 color) {
   vec4 payload[payload_vec4s];
   pack(p, payload);
   out_winners[at] = pair(winner_name(payload[0]));
-  out_winners[pixels + at] = pair(floatBitsToUint(payload[0].zw));
-  out_winners[2u * pixels + at] = pair(uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0))));
+  out_winners[pixels + 2u * at] = pair(floatBitsToUint(payload[0].zw));
+  out_winners[pixels + 2u * at + 1u] = pair(uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0))));
 }
 #endif
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Analytic edges by tiles: what a cast keeps of each pixel's nearest particle for edges.comp. Three pairs of words a pixel, in
-// planes of `step.width * step.height`: who it is (its payload's x mixed with the rest, and y), the rest of the payload, and the color it
-// has here, half floats. The first plane is cleared to no_winner.
+// Analytic edges by tiles: what a cast keeps of each pixel's nearest particle for edges.comp. Three pairs of words a pixel:
+// who it is (its payload's x mixed with the rest, and y), cleared to no_winner; behind those of all pixels the rest of its payload and the color
+// that it has here, half floats, side by side.
 #ifndef MOTE_TILES_WINNERS_GLSL
 #define MOTE_TILES_WINNERS_GLSL
 
