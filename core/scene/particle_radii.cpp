@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 
 namespace mote {
 namespace {
@@ -48,6 +50,30 @@ std::vector<double> element_radii(const data::Frame& frame, const data::Column& 
   return radii;
 }
 
+// The diagonal of the box that holds the middle eight tenths of the particles along each axis, by 1024 of them spread evenly over
+// the data: what a few stray ones do not change.
+double usual_extent(std::span<const double> positions) {
+  const std::size_t count = positions.size() / 3, step = std::max<std::size_t>(1, count / 1024);
+  double squares = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<double> places;
+    for (std::size_t i = 0; i < count; i += step)
+      if (std::isfinite(positions[3 * i + axis])) places.push_back(positions[3 * i + axis]);
+    if (places.empty()) continue;
+    std::sort(places.begin(), places.end());
+    const double width = places[places.size() - 1 - places.size() / 10] - places[places.size() / 10];
+    squares += width * width;
+  }
+  return std::sqrt(squares);
+}
+
+// Of particles without one: half the median distance of nearest neighbors, and at least a thousandth of their extent, so that
+// dense lines of points show.
+double guessed_radius(std::span<const double> positions) {
+  const std::optional<double> distance = data::median_neighbor_distance(positions);
+  return distance ? std::max(0.5 * *distance, 1e-3 * usual_extent(positions)) : lone_radius;
+}
+
 } // namespace
 
 std::vector<double> particle_radii(const FrameContext& context, const RadiusDesc& rule, Diagnostics& diagnostics) {
@@ -76,8 +102,7 @@ std::vector<double> particle_radii(const FrameContext& context, const RadiusDesc
   if (context.usual_radius) return std::vector<double>(frame.count, *context.usual_radius);
   const data::Column* position = frame.find("position");
   const auto* values = position ? std::get_if<std::vector<double>>(&position->values) : nullptr;
-  const std::optional<double> distance = values ? data::median_neighbor_distance(*values) : std::nullopt;
-  return std::vector<double>(frame.count, distance ? 0.5 * *distance : lone_radius);
+  return std::vector<double>(frame.count, values ? guessed_radius(*values) : lone_radius);
 }
 
 } // namespace mote

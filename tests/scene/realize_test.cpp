@@ -2,6 +2,8 @@
 #include "core/scene/colormaps.hpp"
 #include "tests/scene/realize_fixture.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace mote {
@@ -32,6 +34,17 @@ TEST_F(Realize, RadiusRulesInOrder) {
   EXPECT_EQ(radius(s, 2), 0.4f);
   write("one.csv", "x,y,z\n7,7,7\n");
   EXPECT_EQ(radius(scene("one.csv"), 0), 0.5f);
+}
+
+// A path of close points: a radius of half their distance would show nothing. A stray point changes nothing.
+TEST_F(Realize, GuessedRadiiShow) {
+  std::string path = "x,y,z\n", row = path;
+  for (int i = 0; i <= 1000; ++i) path += fmt::format("{},0,0\n", i % 2 ? i - 0.999 : i);
+  for (int i = 0; i < 40; ++i) row += fmt::format("{},0,0\n", i);
+  write("path.csv", path);
+  EXPECT_NEAR(radius(scene("path.csv"), 0), 0.8, 0.01) << "a thousandth of eight tenths of 1000, not half of 0.001";
+  write("stray.csv", row + "1e9,0,0\n");
+  EXPECT_EQ(radius(scene("stray.csv"), 0), 0.5f);
 }
 
 TEST_F(Realize, ElementsGiveRadiusAndColor) {
