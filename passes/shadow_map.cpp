@@ -161,6 +161,7 @@ private:
     wish.slot = slot;
     wish.slack = ids_ ? thin_ : 0.0f;
     wish.placing.margin = wish.slack;
+    wish.placing.whole = true;
     return tiles_.place(context.device(), store, pipelines_->frame_layout(), wish);
   }
 

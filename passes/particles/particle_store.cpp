@@ -313,6 +313,8 @@ void ParticleStore::place_tiles(const Scene& scene, const View& view, std::strin
   out.materials.clear();
   out.slices.clear();
   out.flags = 0;
+  out.ids = 0;
+  for (const Batch& batch : scene.batches) out.ids = std::max(out.ids, batch.id_base + batch.instances.size() * batch.row_count);
   // What is of the type, by threads that take equal numbers of chunks; what is not, and what tiles do not serve, as runs to draw.
   std::map<const Slice*, std::uint32_t> slices;
   std::vector<Run> runs;
@@ -348,7 +350,7 @@ void ParticleStore::place_tiles(const Scene& scene, const View& view, std::strin
     for (std::size_t j = first_job(jobs, begin); j < jobs.size() && jobs[j].start < end; ++j) {
       const auto& [batch, instance, slice, start] = jobs[j];
       place_for_tiles(*batch->chunks, slice->first_chunk, std::max(begin, start) - start, std::min(end - start, slice->chunk_count), batch->instances[instance], view,
-                      culler, {static_cast<std::uint32_t>(j), placing.exact, placing.margin, placing.splats}, own);
+                      culler, {static_cast<std::uint32_t>(j), placing.exact, placing.margin, placing.splats, placing.whole}, own);
       if (own.rest.far.empty() && own.rest.near.empty()) continue;
       rests[part].emplace_back(j, std::move(own.rest));
       own.rest = {};

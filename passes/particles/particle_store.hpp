@@ -64,6 +64,7 @@ struct TiledView {
   std::vector<glm::vec4> materials{}; // different ones
   std::vector<SliceBuffers> slices{};
   std::uint32_t flags{};             // (instance, chunk) pairs of the scene
+  std::uint64_t ids{};               // no particle of it has this one or a greater one
   PlacedView rest{};
 };
 
@@ -72,6 +73,7 @@ struct TilePlacing {
   bool exact{};    // depth or normals are asked for
   double margin{}; // pixels by which particles may be widened
   bool splats{};   // chunks of small particles may be drawn by splats
+  bool whole{};    // chunks that the far cut passes through are drawn whole: what lies beyond it does not matter
   std::function<std::uint32_t(const Batch&)> material{}; // a batch's number, where it is not that of TiledView::materials
 };
 

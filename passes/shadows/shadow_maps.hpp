@@ -7,7 +7,7 @@
 //   layer 0  bits of the caster's first payload vec4 in the light's view space (sphere: center, radius)
 //   layer 1  x: the caster's id; y: the number of its type; zw: nothing
 //   layer 2+ the rest of the payload, of types that have more
-// Tiles keep layer 0 and the ids of layer 1 in two buffers, row by row.
+// Tiles keep layer 0 and the ids of layer 1 in two buffers: ids by texel, tile by tile (work.glsl), payloads like them or by id.
 // The caster is the nearest to the light at the texel's center. No caster: 0xFFFFFFFF in every word that is something.
 // A map of method `depth` is a depth texture of n / z in the light's view (orthographic: z counts from
 // the view's eye plane), 0 where nothing is.
@@ -38,7 +38,10 @@ struct ShadowMapInfo {
 // of the graph is not touched then.
 class MapInBuffers {
 public:
-  struct Buffers { gpu::Buffer casters{}, ids{}; };
+  struct Buffers {
+    gpu::Buffer casters{}, ids{};
+    bool by_id{}; // casters lie by id, else by texel as ids do
+  };
   using Mark = std::function<void(std::string_view stage)>;
   virtual ~MapInBuffers() = default;
   [[nodiscard]] virtual Buffers buffers() const = 0;

@@ -22,13 +22,14 @@ bool TileShadows::can_hold(const std::vector<MappedLight>& lights) {
 void TileShadows::update(const std::vector<MappedLight>& lights, const View& camera) {
   std::array<ShadowBlock, most_maps> blocks{};
   std::array<MapInBuffers::Buffers, most_maps> maps;
-  maps.fill({none_, none_});
+  maps.fill({none_, none_, false});
   key_ = {.maps = static_cast<std::uint32_t>(lights.size())};
   for (std::size_t k = 0; k < lights.size(); ++k) {
     blocks[k] = shadow_block(lights[k].info, camera);
     maps[k] = lights[k].buffers->buffers();
     key_.lights[k] = static_cast<std::uint32_t>(lights[k].info.light);
     if (lights[k].info.view.projection == Projection::Orthographic) key_.orthographic |= 1u << k;
+    if (maps[k].by_id) key_.by_id |= 1u << k;
   }
   device_.queue().write_buffer(blocks_, 0, std::as_bytes(std::span(blocks)));
   std::vector<gpu::BindGroupEntry> entries{{.binding = 0, .buffer = {&blocks_}}};

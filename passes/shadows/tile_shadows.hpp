@@ -21,6 +21,7 @@ public:
     std::uint32_t maps{};
     std::array<std::uint32_t, most_maps> lights{no_light, no_light, no_light, no_light}; // of the scene, by map
     std::uint32_t orthographic{};                                                        // bit k: map k's
+    std::uint32_t by_id{};                                                               // bit k: map k's casters lie by id
     auto operator<=>(const Key&) const = default;
   };
 

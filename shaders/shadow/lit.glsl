@@ -14,6 +14,7 @@ layout(constant_id = 32) const int light_of_map1 = -1;
 layout(constant_id = 33) const int light_of_map2 = -1;
 layout(constant_id = 34) const int light_of_map3 = -1;
 layout(constant_id = 35) const int orthographic_maps = 0; // bit k: map k's light has no place
+layout(constant_id = 36) const int maps_by_id = 0;        // bit k: map k's casters lie by id, else by texel
 
 struct ShadowBlock { // as in shadow/receiver.glsl
   vec4 light_from_view0, light_from_view1, light_from_view2, offset, map, bias;
@@ -66,29 +67,33 @@ Question question_of(LightMap light, bool parallel, vec3 position) {
   q.to_light = parallel ? vec3(0.0, 0.0, -1.0) : -q.p / max(q.reach, 1e-30);
   vec2 last = light.map.xy - 1.0;
   uvec2 lo = uvec2(clamp(floor(place - 0.5), vec2(0.0), last)), hi = uvec2(clamp(floor(place - 0.5) + 1.0, vec2(0.0), last));
-  uint width = uint(light.map.x);
-  q.texels = uvec4(lo.y * width + lo.x, lo.y * width + hi.x, hi.y * width + lo.x, hi.y * width + hi.x);
+  uint tiles_x = (uint(light.map.x) + 7u) >> 3, left = tiled_column(lo.x), right = tiled_column(hi.x);
+  uint upper = tiled_row(lo.y, tiles_x), lower = tiled_row(hi.y, tiles_x);
+  q.texels = uvec4(upper + left, upper + right, lower + left, lower + right);
   return q;
 }
 // Whose casters have not been tried: bits. The same caster in several texels is tried once.
 uint others_than(uvec4 ids, uint id, uint open) {
   return open & ~((ids.x == id ? 1u : 0u) | (ids.y == id ? 2u : 0u) | (ids.z == id ? 4u : 0u) | (ids.w == id ? 8u : 0u));
 }
-#define ASK_MAP(casters, caster_ids, light, parallel, position, own, facing, blocked) { \
+#define ASK_MAP(k, light, position, own, facing) { \
+  const bool parallel = (orthographic_maps & (1 << k)) != 0, by_id = (maps_by_id & (1 << k)) != 0; \
+  bool blocked = false; \
   Question q = question_of(light, parallel, position); \
   bool asked = q.asked && (facing); \
   uvec4 ids = uvec4(no_particle); \
-  if (asked) ids = uvec4(caster_ids[q.texels.x], caster_ids[q.texels.y], caster_ids[q.texels.z], caster_ids[q.texels.w]); \
+  if (asked) ids = uvec4(caster_ids##k[q.texels.x], caster_ids##k[q.texels.y], caster_ids##k[q.texels.z], caster_ids##k[q.texels.w]); \
   uint open = others_than(ids, own, others_than(ids, no_particle, 15u)); \
   do { \
-    int k = findLSB(open); \
-    uint texel = k <= 0 ? q.texels.x : k == 1 ? q.texels.y : k == 2 ? q.texels.z : q.texels.w; \
-    uint id = k <= 0 ? ids.x : k == 1 ? ids.y : k == 2 ? ids.z : ids.w; \
+    int i = findLSB(open); \
+    uint texel = i <= 0 ? q.texels.x : i == 1 ? q.texels.y : i == 2 ? q.texels.z : q.texels.w; \
+    uint id = i <= 0 ? ids.x : i == 1 ? ids.y : i == 2 ? ids.z : ids.w; \
     vec4 caster = vec4(0.0); \
-    if (open != 0u) caster = uintBitsToFloat(casters[texel]); \
+    if (open != 0u) caster = uintBitsToFloat(casters##k[by_id ? id : texel]); \
     blocked = blocked || (open != 0u && sphere_blocks(q.p, q.to_light, q.reach, caster)); \
     open = blocked ? 0u : others_than(ids, id, open); \
-  } while (subgroupAny(open != 0u)); }
+  } while (subgroupAny(open != 0u)); \
+  lit.blocked##k = blocked; }
 
 struct Lit { bool blocked0, blocked1, blocked2, blocked3; };
 Lit all_lit() { return Lit(false, false, false, false); }

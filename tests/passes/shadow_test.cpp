@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -203,6 +205,41 @@ TEST_P(Shadows, FromWithinTheCloud) {
   EXPECT_GT(e.shadowed, 5000u);
   EXPECT_GT(e.facing, e.shadowed + 5000u);
   EXPECT_LE(e.wrong(), 1e-3) << e.false_shadow << " false shadow, " << e.false_light << " false light of " << e.facing;
+}
+
+// Casters of several batches and instances: each is one of its own, and no particle shadows itself.
+TEST_P(Shadows, BatchesAndInstances) {
+  Scene scene = placed(cloud(500, 0.8, sun({1, -0.35, 0.2})), {glm::dmat4(1.0), glm::translate(glm::dmat4(1.0), glm::dvec3(4, 3, -2))});
+  Scene more = placed(cloud(700, 0.6, sun({1, -0.35, 0.2})), {glm::translate(glm::dmat4(1.0), glm::dvec3(-3, 5, 3)), glm::translate(glm::dmat4(1.0), glm::dvec3(1, -4, 2))});
+  more.batches[0].id_base = scene.particle_count();
+  scene.batches.push_back(more.batches[0]);
+  scene.bounds.add(more.bounds);
+  const View view = look(scene, {18, 12, 55}, {0, 0, 0}, {320, 240});
+  const ShadowErrors e = errors(draw(scene, view), scene, view);
+  EXPECT_EQ(tiled_, GetParam() == Expansion::Compute);
+  EXPECT_GT(e.shadowed, 2000u);
+  EXPECT_LE(e.wrong(), 1e-3) << e.false_shadow << " false shadow, " << e.false_light << " false light of " << e.facing;
+}
+
+// Casters of a texel or less, which tiles draw by splats, on a camera's picture in which they are not small. Quads draw the same.
+TEST_P(Shadows, CastersOfATexel) {
+  const Scene scene = cloud(20000, 0.15, sun({1, -0.35, 0.2}));
+  Scene open = scene;
+  open.lights[0].shadows = false;
+  const View view = look(scene, {9, 6, 22}, {0, 0, 0}, {480, 360});
+  const Picture lit = draw(open, view);
+  for (const char* size : {"shadow.size=64", "shadow.size=256"}) {
+    const Picture p = draw(scene, view, {}, {size}), quads = GpuTest::draw(scene, view, {.expansion = Expansion::Vertex}, {size});
+    EXPECT_EQ(tiled_, GetParam() == Expansion::Compute);
+    std::size_t shadowed = 0, off = 0;
+    for (std::size_t i = 0; i < p.id.size(); ++i) {
+      if (p.id[i] != quads.id[i]) continue;
+      shadowed += std::abs(lit.color[i].g - quads.color[i].g) > 4e-3;
+      off += std::abs(p.color[i].g - quads.color[i].g) > 4e-3;
+    }
+    EXPECT_GT(shadowed, 1500u) << size;
+    EXPECT_LE(off, shadowed / 20) << size; // of casters thinner than a texel, the nearest may be another
+  }
 }
 
 TEST_P(Shadows, SpotLights) {

@@ -145,4 +145,26 @@ TEST(TilePlacement, SidesOfSplatsHoldEveryPixelOfTheirParticles) {
   for (const int count : counts.sides) EXPECT_GT(count, 100);
 }
 
+// A chunk across the far cut has to be cut, which tiles do not, unless what lies beyond does not matter.
+TEST(TilePlacement, ChunksAcrossTheFarCut) {
+  const ChunkSet set = build_spheres(std::vector<glm::dvec3>{{0, 0, -2}, {0, 0, 2}}, std::vector<double>{0.5, 0.5}, std::vector<std::uint32_t>{0, 1}, {});
+  Camera camera;
+  camera.projection = Projection::Orthographic;
+  camera.eye = {0, 0, 60};
+  camera.height = 10.0;
+  View view = make_view(camera, {61, 43}, 30.0);
+  const double first = view.to_view({0, 0, 2}).z - 0.5, last = view.to_view({0, 0, -2}).z + 0.5;
+  const auto tiled = [&](double far_cut, bool whole) {
+    view.far_cut = far_cut;
+    PlacedForTiles out;
+    place_for_tiles(set, 0, 0, set.chunks.size(), {}, view, ViewCuller(view), {.whole = whole}, out);
+    EXPECT_EQ(out.tiled.size() + out.rest.far.size() + out.rest.near.size(), far_cut > first ? 1u : 0u);
+    return out.tiled.size();
+  };
+  EXPECT_EQ(tiled(last + 0.5, false), 1u);
+  EXPECT_EQ(tiled(0.5 * (first + last), false), 0u);
+  EXPECT_EQ(tiled(0.5 * (first + last), true), 1u);
+  EXPECT_EQ(tiled(first - 0.5, true), 0u) << "all of it lies beyond";
+}
+
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Analytic edges by tiles: particles thinner than a pixel are widened so that none is missed, casts keep each pixel's particle
-// and color in winners(), and at the end pixels at outlines are composited of what those around them truly cover
-// (shaders/particles/tiles/edges.comp). TileRenderer is the one that calls this.
+// (winners.glsl), and at the end pixels at outlines are listed (outlines.comp) and composited of what those around them truly
+// cover (edges.comp). TileRenderer is the one that calls this.
 //
 // AOVs of such a picture would be those of widened particles; a pass draws them without edges.
 #pragma once
@@ -24,15 +24,17 @@ public:
   TileEdges(gpu::Device device, const gpu::BindGroupLayout& frame);
   // A picture of `pixels`; before recording.
   void reserve(std::uint64_t pixels);
-  [[nodiscard]] const gpu::Buffer& winners() const { return winners_; } // bound by casts
-  void clear(gpu::CommandEncoder& encoder, std::uint64_t pixels);
-  // What pixels at outlines are written to, in the layout of tiles: words of a pixel 1, or 2 and 4.
-  struct Into {
+  [[nodiscard]] const gpu::Buffer& colors() const { return colors_; } // bound by casts
+  // What casts have left, and what pixels at outlines are written to, in the layout of tiles: words of a pixel 1, or 2 and 4.
+  struct Buffers {
+    const gpu::Buffer& names;
+    const gpu::Buffer& payloads;
     const gpu::Buffer& narrow;
     const gpu::Buffer& wide;
   };
+  void clear(gpu::CommandEncoder& encoder, const gpu::Buffer& names);
   // After all casts. `block`: width and height. `map`: may be null; its shader is compiled now (P002) or comes from the cache.
-  void record(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, StepBlock block, gpu::Color background, const CastKey& key, const Into& into,
+  void record(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, StepBlock block, gpu::Color background, const CastKey& key, const Buffers& buffers,
               const rg::PixelMap* map, const std::string& cache_directory);
 
 private:
@@ -41,7 +43,8 @@ private:
   gpu::Device device_;
   gpu::BindGroupLayout frame_, layout_;
   gpu::PipelineLayout pipelines_layout_;
-  gpu::Buffer winners_;
+  gpu::ComputePipeline outlines_;
+  gpu::Buffer colors_, listed_, arguments_, indirect_;
   std::map<CastKey, gpu::ComputePipeline> pipelines_;
 };
 

@@ -13,7 +13,6 @@
 #include <compare>
 #include <map>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace mote::passes {
@@ -21,10 +20,19 @@ namespace mote::passes {
 struct CastKey {
   ParticlePipelineKey drawing{}; // type, phase, aovs, projection, lights, model, colors, slack; the rest of it is not looked at
   bool one_material{}, want_depth{}, display_only{}, edges{};
+  bool by_id{};                  // phase Shadow: as PlaceKey says
   std::uint32_t color_words{2};  // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float; 0: no color
   std::string pixel_map{};       // id of the map that is applied to the color; empty: none
   TileShadows::Key shadows{};
   auto operator<=>(const CastKey&) const = default;
+};
+
+struct PlaceKey {
+  ParticlePipelineKey drawing{};
+  bool untested{};    // by the depth so far
+  bool first_slice{};
+  bool by_id{};       // a shadow map's casters are kept by their ids
+  auto operator<=>(const PlaceKey&) const = default;
 };
 
 class TileKernels {
@@ -37,7 +45,7 @@ public:
   [[nodiscard]] static bool splats(const gpu::Device& device, const std::string& type);
 
   [[nodiscard]] const gpu::ComputePipeline& kernel(const std::string& name); // "cull", "allocate", "scatter", "far"
-  [[nodiscard]] const gpu::ComputePipeline& place(const ParticlePipelineKey& key, bool untested, bool first_slice);
+  [[nodiscard]] const gpu::ComputePipeline& place(const PlaceKey& key);
   [[nodiscard]] const gpu::ComputePipeline& sift(const ParticlePipelineKey& key);
   // What a cast takes in besides, each may be null: the map that key.pixel_map names, the shadows of key.shadows. Their
   // shader is compiled now (P002) or comes from the cache.
@@ -71,7 +79,7 @@ private:
   gpu::BindGroupLayout frame_, slice_, binning_, cast_, resolve_, splat_far_;
   gpu::PipelineLayout binning_pipelines_, cast_pipelines_, resolve_pipelines_, far_pipelines_;
   std::map<std::string, gpu::ComputePipeline> kernels_;
-  std::map<std::tuple<ParticlePipelineKey, bool, bool>, gpu::ComputePipeline> places_;
+  std::map<PlaceKey, gpu::ComputePipeline> places_;
   std::map<ParticlePipelineKey, gpu::ComputePipeline> sifts_;
   std::map<std::pair<ParticlePipelineKey, std::uint32_t>, gpu::ComputePipeline> splats_;
   std::map<std::pair<bool, bool>, gpu::ComputePipeline> splat_fars_;

@@ -10,7 +10,7 @@ namespace {
 class TileRects {
 public:
   TileRects(const View& view, const TilePlacement& how)
-      : view_(view), margin_(how.margin / view.focal), splats_(how.splats), perspective_(view.projection == Projection::Perspective),
+      : view_(view), margin_(how.margin / view.focal), splats_(how.splats), whole_(how.whole), perspective_(view.projection == Projection::Perspective),
         offset_(view.sample_offset - view.center()),
         last_(view.size.width - 1.0, view.size.height - 1.0), least_z_(std::max(view.near_cut, view.depth_near) * (1.0 + 1e-5)) {}
 
@@ -19,7 +19,7 @@ public:
     const double widened = margin_ * (perspective_ ? box.center.z + box.extent.z : 1.0), slack = 1e-6 * glm::length(box.center) + widened;
     radius += widened;
     const double z_min = box.center.z - box.extent.z - slack, z_max = box.center.z + box.extent.z + slack;
-    if (z_min < least_z_ || (view_.far_cut > 0 && z_max > view_.far_cut)) return false;
+    if (z_min < least_z_ || (!whole_ && view_.far_cut > 0 && z_max > view_.far_cut)) return false;
     const glm::dvec2 lo = glm::dvec2(box.center - box.extent) - slack, hi = glm::dvec2(box.center + box.extent) + slack;
     glm::dvec2 first, last; // pixels
     for (int k = 0; k < 2; ++k) {
@@ -61,7 +61,7 @@ private:
 
   const View& view_;
   double margin_; // tangents
-  bool splats_;
+  bool splats_, whole_;
   bool perspective_;
   glm::dvec2 offset_, last_;
   double least_z_;

@@ -2,7 +2,7 @@
 // Chunks as the compute expansion needs them: their origin in view space, their nearest depth and the tiles they may
 // cover. Pure; double precision, rounded outwards once.
 //
-// Tiles serve chunks that lie wholly behind the eye's and the near plane and not beyond the far cut. Of those near the eye,
+// Tiles serve chunks that lie wholly behind the eye's and the near plane and do not cross the far cut. Of those near the eye,
 // where float32 placement would show in the depth, the particles are placed here one by one, in double. What is so near that
 // the intersection would need more than its plain form (nearer than the diameter of a particle) is given back with the rest,
 // to be drawn by a raster expansion; few chunks are. Where depth or normals are asked for, and of particles that are more than
@@ -31,6 +31,7 @@ struct TilePlacement {
   bool exact{};          // depth or normals are asked for
   double margin{};       // pixels by which particles may be widened
   bool splats{};         // chunks of small particles get a TileChunk::side
+  bool whole{};          // chunks that the far cut passes through are served
 };
 
 // Appends those of the chunks [first + begin, first + end) of an instance that the view may see; indices count from `first`.

@@ -18,6 +18,7 @@ static_assert((most_capacity / 256 + 1) * chunk_capacity <= 1u << 20); // place_
 constexpr float last_depth_step = 4095;               // as in work.glsl
 constexpr float infinitely_far = 3e38f;               // as in cast.comp
 constexpr std::uint32_t no_caster = 0xFFFFFFFFu;      // every word of a texel without one
+constexpr std::uint64_t most_by_id = 1u << 23;        // casters kept by their ids: 128 MiB, of which what is seen is touched
 constexpr std::uint32_t infinity_bits = 0x7F800000u;
 constexpr std::uint32_t workgroup = 64;               // of all kernels but cast
 
@@ -98,6 +99,7 @@ void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t he
   upload(buffers_.draws, "tiles.draws", std::as_bytes(std::span(view.draws)));
   upload(buffers_.materials, "tiles.materials", std::as_bytes(std::span(view.materials)));
   upload(buffers_.argument_template, "tiles.argument_template", std::as_bytes(std::span(arguments_)));
+  ids_ = view.ids;
   flags_fresh_ = reserve(buffers_.flags, "tiles.flags", view.flags * 8ull, Usage::Storage | Usage::CopyDst);
 }
 
@@ -113,6 +115,7 @@ void TileRenderer::list_splats(const TiledView& view) {
 void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets) {
   Buffers& b = buffers_;
   const std::uint64_t pixels = std::uint64_t{block_.width} * block_.height, places = std::uint64_t{plan_.list_capacity} * chunk_capacity;
+  const std::uint64_t texels = std::uint64_t{plan_.level1} * tile_size * tile_size; // of a map that stays: whole tiles
   const std::uint64_t payload = find_particle_type(key.type)->vec4s_per_payload * sizeof(glm::vec4);
   const Usage storage = Usage::Storage | Usage::CopyDst | Usage::CopySrc;
   reserve(b.lists, "tiles.lists", std::uint64_t{plan_.most_rounds()} * block_.slices * plan_.list_capacity * 16 + 16, storage);
@@ -134,14 +137,15 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.unused_color, "tiles.unused_color", 0, storage);
   reserve(b.encoded, "tiles.encoded_depth", targets.encoded_depth ? pixels * 4 : 0, storage);
   reserve(b.depth, "tiles.depth", targets.depth ? pixels * 4 : 0, storage);
-  reserve(b.id, "tiles.id", targets.id || targets.casters_stay ? pixels * 4 : 0, storage);
-  reserve(b.normal, "tiles.normal", targets.normal || has_casters(targets) ? pixels * 16 : 0, storage);
+  reserve(b.id, "tiles.id", targets.casters_stay ? texels * 4 : targets.id || targets.edges ? pixels * 4 : 0, storage);
+  reserve(b.normal, "tiles.normal", targets.normal || targets.edges || targets.casters ? pixels * 16 : targets.casters_stay && !by_id_ ? texels * 16 : 0, storage);
+  reserve(b.casters, "tiles.casters", by_id_ ? ids_ * 16 : 0, storage);
   if (!targets.edges) return;
   if (!edges_) edges_ = std::make_unique<TileEdges>(device_, frame_);
   edges_->reserve(pixels);
 }
 
-void TileRenderer::make_groups(const TiledView& view, const gpu::Buffer& winners) {
+void TileRenderer::make_groups(const TiledView& view, const gpu::Buffer& winner_colors) {
   auto group = [&](std::string_view label, const gpu::BindGroupLayout& layout, std::initializer_list<const gpu::Buffer*> buffers) {
     std::vector<gpu::BindGroupEntry> entries;
     for (const gpu::Buffer* buffer : buffers) entries.push_back({.binding = static_cast<std::uint32_t>(entries.size()), .buffer = {buffer}});
@@ -152,18 +156,18 @@ void TileRenderer::make_groups(const TiledView& view, const gpu::Buffer& winners
     slice_groups_.push_back(group("tiles.slice", kernels_.slice_layout(), {&slice.records, &slice.rows, &slice.colors}));
   const Buffers& b = buffers_;
   binning_group_ = group("tiles.binning", kernels_.binning_layout(),
-                         {&b.chunks, &b.draws, &b.flags, &b.lists, &b.arguments, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.splats, &b.splat_lists});
+                         {&b.chunks, &b.draws, &b.flags, &b.lists, &b.arguments, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.splats, &b.splat_lists, &b.casters});
   const bool narrow = color_words_ == 1;
   cast_group_ = group("tiles.cast", kernels_.cast_layout(),
                       {&b.materials, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.nearest,
-                       narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color, &winners});
+                       narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color, &winner_colors});
   resolve_groups_.clear();
   if (plan_.splats == 0) return;
   splat_far_group_ = group("tiles.splat_far", kernels_.splat_far_layout(), {&b.splats, &b.nearest, &b.far});
   for (const SliceBuffers& slice : view.slices)
     resolve_groups_.push_back(group("tiles.resolve", kernels_.resolve_layout(),
                                     {&b.materials, &slice.records, &slice.rows, &slice.colors, &b.chunks, &b.draws, &b.splats, &b.draws, &b.nearest,
-                                     narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color, &winners}));
+                                     narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color, &winner_colors}));
 }
 
 void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& targets) {
@@ -186,7 +190,7 @@ void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& target
     encoder.clear_buffer(b.color, 0, 0, no_caster);
   }
   if (!targets.color) return;
-  if (targets.edges) edges_->clear(encoder, pixels);
+  if (targets.edges) edges_->clear(encoder, b.id);
 
   const gpu::Color background = targets.map ? targets.map->apply(targets.background) : targets.background;
   const std::vector<std::uint32_t> words = background_words(background, color_words_);
@@ -253,7 +257,7 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
     block.others = others | (first_ && round == 0 ? 0u : 2u);
     gpu::ComputePass place = encoder.begin_compute_pass({.label = "tiles.place"});
     for (block.slice = 0; block.slice < slices; ++block.slice) {
-      begin(place, kernels_.place(placed, !step.others || sifted || (first_ && round == 0), block.slice == 0));
+      begin(place, kernels_.place({placed, !step.others || sifted || (first_ && round == 0), block.slice == 0, key.by_id}));
       place.dispatch_indirect(buffers_.indirect, offset(round, block.slice));
     }
     block.slice = 0;
@@ -344,7 +348,7 @@ void TileRenderer::resolve_splats(gpu::CommandEncoder& encoder, const gpu::BindG
 void TileRenderer::record_edges(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const CastKey& key, const TileTargets& targets, const Mark& mark) {
   const bool narrow = color_words_ == 1;
   const Buffers& b = buffers_;
-  edges_->record(encoder, frame_group, block_, targets.background, key, {narrow ? b.color : b.unused_color, narrow ? b.unused_color : b.color}, targets.map, targets.cache_directory);
+  edges_->record(encoder, frame_group, block_, targets.background, key, {b.id, b.normal, narrow ? b.color : b.unused_color, narrow ? b.unused_color : b.color}, targets.map, targets.cache_directory);
   mark("edges");
 }
 
@@ -366,12 +370,13 @@ void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& tar
 void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& drawing,
                           const TileTargets& targets, const Mark& mark) {
   color_words_ = targets.color ? words_of(targets.color.format()) : targets.casters ? 4 : targets.casters_stay ? 1 : 0;
+  by_id_ = targets.casters_stay && plan_.splats == 0 && ids_ <= most_by_id;
   const CastKey key{.drawing = drawing_of(drawing, targets), .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
               .display_only = color_words_ == 1 && !targets.depth && !targets.id && !targets.normal && !targets.encoded_depth && drawing.phase == Phase::Opaque,
-              .edges = targets.edges, .color_words = color_words_,
+              .edges = targets.edges, .by_id = by_id_, .color_words = color_words_,
               .pixel_map = targets.map ? targets.map->id : std::string(), .shadows = targets.shadows ? targets.shadows->key() : TileShadows::Key{}};
   reserve_frame(key.drawing, targets);
-  make_groups(view, targets.edges ? edges_->winners() : buffers_.unused_color);
+  make_groups(view, targets.edges ? edges_->colors() : buffers_.unused_color);
   clear(encoder, targets);
   mark("clear");
   first_ = true;

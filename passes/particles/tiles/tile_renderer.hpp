@@ -47,16 +47,16 @@ public:
               const TileTargets& targets, const Mark& mark);
 
   // With casters_stay, until the next record().
-  [[nodiscard]] MapInBuffers::Buffers casters() const { return {buffers_.normal, buffers_.id}; }
+  [[nodiscard]] MapInBuffers::Buffers casters() const { return {by_id_ ? buffers_.casters : buffers_.normal, buffers_.id, by_id_}; }
 
 private:
   struct Buffers {
     gpu::Buffer chunks{}, draws{}, materials{}, flags{}, lists{}, arguments{}, argument_template{}, indirect{}, payloads{}, colors{}, ids{}, tiles{},
-        far{}, active{}, entries{}, nearest{}, splats{}, splat_lists{}, color{}, unused_color{}, background{}, encoded{}, depth{}, id{}, normal{};
+        far{}, active{}, entries{}, nearest{}, splats{}, splat_lists{}, color{}, unused_color{}, background{}, encoded{}, depth{}, id{}, normal{}, casters{};
   };
   bool reserve(gpu::Buffer& buffer, std::string_view label, std::uint64_t bytes, gpu::BufferUsage usage);
   void reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets);
-  void make_groups(const TiledView& view, const gpu::Buffer& winners);
+  void make_groups(const TiledView& view, const gpu::Buffer& winner_colors);
   void list_splats(const TiledView& view);
   void record_splats(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, const ParticlePipelineKey& placed, const Mark& mark);
   void record_splat_far(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, bool orthographic, const Mark& mark);
@@ -79,6 +79,8 @@ private:
   StepBlock block_{};
   std::vector<gpu::BindGroup> slice_groups_{}, resolve_groups_{};
   std::vector<std::uint32_t> splats_{}; // chunks drawn by splats, for each slice and side
+  std::uint64_t ids_{};                 // of the scene
+  bool by_id_{};                        // casters that stay are kept by their ids
   bool splats_alone_{};                 // nothing is cast, and there is one slice
   gpu::BindGroup binning_group_{}, cast_group_{}, splat_far_group_{};
   std::vector<std::uint32_t> background_words_{};

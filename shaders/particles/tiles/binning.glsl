@@ -18,6 +18,7 @@ layout(std430, set = 2, binding = 9) buffer Far { float far[]; };          // fa
 layout(std430, set = 2, binding = 10) buffer Active { uint active_tiles[]; };
 layout(std430, set = 2, binding = 11) buffer Entries { uint entries[]; };   // tile_room a tile, then those of the list in tile order; then the
                                                                             // list itself, two words each: tile and place
+layout(std430, set = 2, binding = 14) writeonly buffer Casters { uvec4 casters[]; }; // payloads by id, of a map that keeps them so
 layout(std430, set = 2, binding = 13) buffer SplatLists { uint splat_lists[]; }; // placed chunks taken, by slice and side
 
 // Where the farthest depths of windows start: of 2x1, 1x2 and 2x2 tiles from each tile on, all tiles of one size after the other.

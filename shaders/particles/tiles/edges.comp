@@ -4,11 +4,10 @@
 // own it and its eight neighbors covers of it (closed forms, common/coverage.glsl) with the color that the particle has in the
 // pixel it owns. What they leave is the background where a neighbor is empty, else the farthest's.
 //
-// A workgroup, one subgroup, looks at 64 pixels, LANES a row, and blends those at an outline, LANES at a time.
+// An invocation blends one of the pixels that outlines.comp has listed.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-#extension GL_KHR_shader_subgroup_ballot : require
 #include "particles/interface.glsl"
 #include "particles/tiles/work.glsl"
 #include "particles/tiles/winners.glsl"
@@ -18,19 +17,22 @@
 #include "particles/tiles/color_out.glsl"
 
 layout(local_size_x = LANES) in;
-const int rows = 64 / LANES;
 
-layout(std430, set = 1, binding = 0) readonly buffer Winners { PAIR winners[]; };
+layout(std430, set = 1, binding = 0) readonly buffer Names { uint names[]; };
+layout(std430, set = 1, binding = 3) readonly buffer Payloads { vec4 payloads[]; };
+layout(std430, set = 1, binding = 4) readonly buffer WinnerColors { PAIR winner_colors[]; };
+layout(std430, set = 1, binding = 5) readonly buffer Listed { uint listed[]; };
+layout(std430, set = 1, binding = 6) readonly buffer Arguments { uint arguments[]; }; // the fourth: pixels listed
 
 // Uniform values, taken once.
 struct Taken {
-  uint width, pixels;
+  uint width;
   ivec2 last;
   float focal, inverse_focal;
   vec2 offset;
 };
 Taken taken() {
-  return Taken(step.width, step.width * step.height, ivec2(int(step.width), int(step.height)) - 1, frame.viewport.z,
+  return Taken(step.width, ivec2(int(step.width), int(step.height)) - 1, frame.viewport.z,
                frame.viewport.w + frame.depth_near.y, frame.sample_near_far.xy);
 }
 
@@ -38,32 +40,6 @@ uint index_of(Taken u, ivec2 pixel) {
   ivec2 p = clamp(pixel, ivec2(0), u.last); // beyond the picture: its edge
   return uint(p.y) * u.width + uint(p.x);
 }
-uvec2 name_at(Taken u, ivec2 pixel) { return words(winners[index_of(u, pixel)]); }
-bool differ(uvec2 a, uvec2 b) { return ((a.x ^ b.x) | (a.y ^ b.y)) != 0u; }
-
-// Which of the 64 pixels have a neighbor of another particle; bit row * LANES + lane.
-uvec2 outlines(Taken u, ivec2 base) {
-  ivec2 at = base + ivec2(int(gl_LocalInvocationID.x), -1);
-  bool inside = at.x <= u.last.x;
-  uvec2 up_l = name_at(u, at - ivec2(1, 0)), up = name_at(u, at), up_r = name_at(u, at + ivec2(1, 0));
-  ++at.y;
-  uvec2 own_l = name_at(u, at - ivec2(1, 0)), own = name_at(u, at), own_r = name_at(u, at + ivec2(1, 0));
-  uvec2 bits = uvec2(0u);
-  uint row = 0u;
-  do {
-    ++at.y;
-    uvec2 down_l = name_at(u, at - ivec2(1, 0)), down = name_at(u, at), down_r = name_at(u, at + ivec2(1, 0));
-    uvec2 d = (up_l ^ own) | (up ^ own) | (up_r ^ own) | (own_l ^ own) | (own_r ^ own) | (down_l ^ own) | (down ^ own) | (down_r ^ own);
-    uint ballot = subgroupBallot((d.x | d.y) != 0u && inside && at.y - 1 <= u.last.y).x, shift = row * uint(LANES);
-    bits.x |= shift < 32u ? ballot << shift : 0u;
-    bits.y |= shift < 32u ? 0u : ballot << (shift & 31u);
-    up_l = own_l; up = own; up_r = own_r;
-    own_l = down_l; own = down; own_r = down_r;
-    ++row;
-  } while (row < uint(rows));
-  return bits;
-}
-
 // What covers a pixel, nearest first; the four nearest.
 float key0, key1, key2, key3, cover0, cover1, cover2, cover3;
 uvec2 color0, color1, color2, color3;
@@ -86,10 +62,10 @@ void add_cover(float key, float cover, uvec2 color) {
 }
 
 // The particle that owns pixel `at`, if `some`: what it covers of the pixel of the ray (x, y, 1).
-void cover_by(Taken u, uint at, uvec2 name, bool some, vec2 ray) {
+void cover_by(Taken u, uint at, bool some, vec2 ray) {
   vec4 payload[payload_vec4s];
-  payload[0] = winner_payload(name, words(winners[u.pixels + 2u * at]));
-  uvec2 color = words(winners[u.pixels + 2u * at + 1u]);
+  payload[0] = payloads[at];
+  uvec2 color = words(winner_colors[at]);
   float key;
   Outline o = tile_outline(unpack(payload), ray.x, ray.y, u.focal, key);
   float cover = disc_coverage(o.offset, o.radius, o.inside, o.inward);
@@ -102,16 +78,15 @@ const uint neighbors_x = 0x8861u, neighbors_y = 0xA094u;
 ivec2 neighbor(uint i) { return ivec2(int(neighbors_x >> (2u * i) & 3u), int(neighbors_y >> (2u * i) & 3u)) - 1; }
 
 vec4 blended(Taken u, ivec2 pixel, uint at, vec4 background) {
-  uvec2 own = words(winners[at]);
-  uvec2 name[8];
+  uint own = names[at], name[8];
   uint fresh = 0u; // neighbors of other particles, each particle once
-  bool empty = !differ(own, no_winner), own_empty = empty;
-#define LOOK(i) name[i] = name_at(u, pixel + neighbor(uint(i)));
+  bool own_empty = own == no_winner, empty = own_empty;
+#define LOOK(i) name[i] = names[index_of(u, pixel + neighbor(uint(i)))];
   LOOK(0) LOOK(1) LOOK(2) LOOK(3) LOOK(4) LOOK(5) LOOK(6) LOOK(7)
-#define OTHER(j) other = other && differ(own_name, name[j]);
+#define OTHER(j) other = other && who != name[j];
 #define JUDGE(i, earlier) { \
-  uvec2 own_name = name[i]; \
-  bool none = !differ(own_name, no_winner), other = !none && differ(own_name, own); \
+  uint who = name[i]; \
+  bool none = who == no_winner, other = !none && who != own; \
   empty = empty || none; \
   earlier \
   fresh |= other ? 1u << i : 0u; }
@@ -121,13 +96,10 @@ vec4 blended(Taken u, ivec2 pixel, uint at, vec4 background) {
 
   vec2 ray = (vec2(pixel) + u.offset) * u.inverse_focal;
   no_covers();
-  cover_by(u, at, own, !own_empty, ray);
+  cover_by(u, at, !own_empty, ray);
   do {
-    uint i = uint(max(findLSB(fresh), 0)), there = index_of(u, pixel + neighbor(i));
-    uvec2 who = name[0];
-#define PICK(k) who = i == uint(k) ? name[k] : who;
-    PICK(1) PICK(2) PICK(3) PICK(4) PICK(5) PICK(6) PICK(7)
-    cover_by(u, there, who, fresh != 0u, ray);
+    uint i = uint(max(findLSB(fresh), 0));
+    cover_by(u, index_of(u, pixel + neighbor(i)), fresh != 0u, ray);
     fresh &= fresh - 1u;
   } while (fresh != 0u);
 
@@ -147,23 +119,9 @@ vec4 blended(Taken u, ivec2 pixel, uint at, vec4 background) {
 
 void main() {
   Taken u = taken();
-  vec4 background = step.material;
-  ivec2 base = ivec2(gl_WorkGroupID.xy) * ivec2(LANES, rows);
-  uvec2 bits = outlines(u, base);
-  do {
-    uint mine = 0u, l = 0u;
-    bool some = false;
-    do { // the next LANES of them, one an invocation
-      bool low = bits.x != 0u, any = (bits.x | bits.y) != 0u, me = gl_LocalInvocationID.x == l;
-      uint next = low ? uint(findLSB(bits.x)) : 32u + uint(max(findLSB(bits.y), 0));
-      mine = me && any ? next : mine;
-      some = some || (me && any);
-      bits = low ? uvec2(bits.x & (bits.x - 1u), bits.y) : uvec2(0u, bits.y & (bits.y - 1u));
-      ++l;
-    } while (l < uint(LANES));
-    ivec2 pixel = base + ivec2(int(mine % uint(LANES)), int(mine / uint(LANES)));
-    uint at = index_of(u, pixel);
-    vec4 color = map_pixel(blended(u, pixel, at, background));
-    if (some) write_color(at, color);
-  } while ((bits.x | bits.y) != 0u);
+  uint count = arguments[3], i = (gl_WorkGroupID.y * edge_groups + gl_WorkGroupID.x) * uint(LANES) + gl_LocalInvocationID.x;
+  ivec2 pixel = ivec2(listed_pixel(listed[min(i, count - 1u)]));
+  uint at = index_of(u, pixel);
+  vec4 color = map_pixel(blended(u, pixel, at, step.material));
+  if (i < count) write_color(at, color);
 }

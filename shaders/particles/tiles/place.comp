@@ -15,6 +15,7 @@ layout(local_size_x = LANES) in;
 layout(constant_id = 11) const bool want_ids = false;
 layout(constant_id = 12) const bool untested = false; // nothing was cast before in this frame, or what was cast is known not to hide them
 layout(constant_id = 17) const bool first_slice = false;
+layout(constant_id = 22) const bool casters_by_id = false; // of a shadow map
 
 // Chunks of the same round in earlier slices: their particles come first.
 uint chunks_before() {
@@ -51,7 +52,11 @@ bool place_particle(Taken u, Chunk chunk, uint lane, bool valid) {
     vec3 color = chunk.color;
     if (per_particle_color) color = chunk.colored ? unpack_color(colors[slot]).rgb : color;
     placed_colors[at] = pair(uvec2(packHalf2x16(color.rg), (packHalf2x16(vec2(color.b, 0.0)) & 0xFFFFu) | chunk.material << 16));
-    if (want_ids) placed_ids[at] = chunk.id_base + rows[slot];
+    if (want_ids) {
+      uint id = chunk.id_base + rows[slot];
+      placed_ids[at] = id;
+      if (casters_by_id) casters[id] = floatBitsToUint(payload[0]);
+    }
   }
   uint entry = at | depth_step(bounds.z_min, u.depth_origin, u.depth_scale) << place_bits;
   uvec2 tile = lo;

@@ -32,6 +32,7 @@ layout(constant_id = 15) const bool want_depth = false;  // the encoded depth, f
 layout(constant_id = 8) const uint type_number = 0u;     // phase shadow: the type, as a map of casters says it
 layout(constant_id = 18) const int phase = 0;            // 0 opaque, 1 surface, 3 shadow, as in phase/surface.frag and phase/shadow.frag
 layout(constant_id = 21) const bool analytic_edges = false; // phase opaque: winners are kept, for edges.comp
+layout(constant_id = 22) const bool casters_by_id = false;  // phase shadow: an id says all, casters are kept by it (place.comp)
 layout(constant_id = 16) const bool display_only = false; // colors of 8 bits are all that is asked for: normals may err by 1e-4
 
 bool want_id() {
@@ -48,15 +49,15 @@ layout(std430, set = 1, binding = 0) readonly buffer Materials { vec4 materials[
 layout(std430, set = 1, binding = 8) buffer Keys { float nearest[]; };       // per pixel: view depth times |ray|^2
 layout(std430, set = 1, binding = 10) writeonly buffer OutEncoded { float out_encoded[]; };
 layout(std430, set = 1, binding = 11) writeonly buffer OutDepth { float out_depth[]; };
-layout(std430, set = 1, binding = 12) writeonly buffer OutId { uint out_id[]; };
-layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { uvec4 out_normal[]; }; // surface: and depth; shadow: payload
-layout(std430, set = 1, binding = 15) writeonly buffer OutWinners { PAIR out_winners[]; }; // with analytic_edges: winners.glsl
+layout(std430, set = 1, binding = 12) writeonly buffer OutId { uint out_id[]; };      // with analytic_edges: names
+layout(std430, set = 1, binding = 13) writeonly buffer OutNormal { uvec4 out_normal[]; }; // surface: and depth; shadow, analytic_edges: payload
+layout(std430, set = 1, binding = 15) writeonly buffer OutWinnerColors { PAIR out_winner_colors[]; }; // with analytic_edges: winners.glsl
 
 void write_normal(uint at, vec4 v) { out_normal[at] = floatBitsToUint(v); }
 
 // Uniform values that every pixel needs, taken once.
 struct Taken {
-  uint width, pixels;
+  uint width;
   vec4 viewport, sample_near_far, material;
   float inverse_rest;
   vec3 ambient, head_light; // times the material, with one_material
@@ -67,7 +68,6 @@ struct Taken {
 Taken take() {
   Taken u;
   u.width = step.width;
-  u.pixels = step.width * step.height;
   u.viewport = frame.viewport;
   u.sample_near_far = frame.sample_near_far;
   u.inverse_rest = frame.depth_near.y;
@@ -102,12 +102,12 @@ vec2 inner_place(Particle p, vec2 quick, float focal) {
   vec2 moved = o.radius < 0.85 ? o.offset * (1.0 - 0.745 * o.radius / max(far, 1e-6)) : o.inward * max(0.35 - o.inside, 0.0);
   return moved / focal;
 }
-void keep_winner(uint at, uint pixels, Particle p, vec3 color) {
+void keep_winner(uint at, Particle p, vec3 color) {
   vec4 payload[payload_vec4s];
   pack(p, payload);
-  out_winners[at] = pair(winner_name(payload[0]));
-  out_winners[pixels + 2u * at] = pair(floatBitsToUint(payload[0].zw));
-  out_winners[pixels + 2u * at + 1u] = pair(uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0))));
+  out_id[at] = winner_name(payload[0]);
+  write_normal(at, payload[0]);
+  out_winner_colors[at] = pair(uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0))));
 }
 #endif
 
@@ -161,10 +161,13 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Wi
     if (!changed) return;
     nearest[at] = pixel_key;
     if (want_depth) out_encoded[at] = encode_depth(t);
+    if (phase == 3 && color_words == 1u) at = tiled_column(pixel.x) + tiled_row(pixel.y, step.tiles_x); // a map that stays in buffers
     if (phase == 1) {
       write_color(at, vec4(own, float(winner.material)));
       out_id[at] = winner.id;
       write_normal(at, vec4(normal, t));
+    } else if (casters_by_id) {
+      out_id[at] = winner.id;
     } else if (color_words != 0u) {
       vec4 payload[payload_vec4s];
       pack(particle, payload);
@@ -181,10 +184,10 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Wi
 #ifdef SHADOW_SET
     vec3 position = ray.origin + t * ray.direction;
     lit = all_lit();
-    if (shadow_maps > 0) ASK_MAP(casters0, caster_ids0, u.map0, (orthographic_maps & 1) != 0, position, winner.id, changed && faces(u.map0, position, normal), lit.blocked0)
-    if (shadow_maps > 1) ASK_MAP(casters1, caster_ids1, u.map1, (orthographic_maps & 2) != 0, position, winner.id, changed && faces(u.map1, position, normal), lit.blocked1)
-    if (shadow_maps > 2) ASK_MAP(casters2, caster_ids2, u.map2, (orthographic_maps & 4) != 0, position, winner.id, changed && faces(u.map2, position, normal), lit.blocked2)
-    if (shadow_maps > 3) ASK_MAP(casters3, caster_ids3, u.map3, (orthographic_maps & 8) != 0, position, winner.id, changed && faces(u.map3, position, normal), lit.blocked3)
+    if (shadow_maps > 0) ASK_MAP(0, u.map0, position, winner.id, changed && faces(u.map0, position, normal))
+    if (shadow_maps > 1) ASK_MAP(1, u.map1, position, winner.id, changed && faces(u.map1, position, normal))
+    if (shadow_maps > 2) ASK_MAP(2, u.map2, position, winner.id, changed && faces(u.map2, position, normal))
+    if (shadow_maps > 3) ASK_MAP(3, u.map3, position, winner.id, changed && faces(u.map3, position, normal))
 #endif
     color = shade(Surface(ray.origin + t * ray.direction, normal, -normalize(ray.direction)), own, material);
   }
@@ -194,7 +197,7 @@ void resolve(Taken u, uvec2 pixel, vec2 quick, float pixel_key, bool changed, Wi
   if (!changed) return;
   nearest[at] = pixel_key;
 #ifdef HAS_TILE_OUTLINE
-  if (analytic_edges) keep_winner(at, u.pixels, particle, color);
+  if (analytic_edges) keep_winner(at, particle, color);
 #endif
   write_color(at, map_pixel(vec4(color, 1.0)));
   if (want_depth) out_encoded[at] = encode_depth(t);

@@ -105,6 +105,10 @@ const uint place_bits = 20u, last_depth_step = 4095u;
 uint depth_step(float z, float origin, float scale) { return uint(clamp((z - origin) * scale, 0.0, float(last_depth_step))); }
 uint place_of(uint entry) { return entry & ((1u << place_bits) - 1u); }
 
+// Where a shadow map that stays in buffers has a texel: tile by tile, so that those around a point lie near each other. The sum of both.
+uint tiled_column(uint x) { return (x >> 3) * 64u + (x & 7u); }
+uint tiled_row(uint y, uint tiles_x) { return ((y >> 3) * tiles_x * 8u + (y & 7u)) * 8u; }
+
 const uint no_particle = 0xFFFFFFFFu;
 const float infinitely_far = 3e38; // keys of pixels without a particle: depth times |ray|^2
 
