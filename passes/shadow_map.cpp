@@ -199,6 +199,7 @@ private:
       key.orthographic = info_.view.projection == Projection::Orthographic;
       key.opaque_only = !transparent_ && has_own_alpha(*particles.batch);
       key.per_particle_color = key.opaque_only;
+      key.paletted = key.opaque_only && particles.batch->chunks->paletted();
       key.proxy_slack = ids_ ? thin_ : 0.0f;
       key.targets = targets;
       key.written = 1 + find_particle_type(key.type)->vec4s_per_payload;

@@ -168,6 +168,7 @@ private:
       key.particle.near_eye = run.near_eye;
       key.particle.affine = run.affine;
       key.particle.per_particle_color = store_->has_colors();
+      key.particle.paletted = false; // in one order are particles of several sets
       key.particle.show_depth_violation = context.frame().get<FrameOptions>().show_depth_violation;
       key.particle.targets = asked.targets;
       key.particle.depth = depth_format_;

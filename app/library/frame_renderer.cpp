@@ -46,7 +46,7 @@ std::uint64_t particle_bytes(const Scene& scene) {
   std::uint64_t bytes = 0;
   for (const Batch& batch : scene.batches)
     if (const ChunkSet& set = *batch.chunks; known.insert(&set).second)
-      bytes += set.records.size() * sizeof(set.records[0]) + (set.rows.size() + set.colors.size()) * sizeof(set.rows[0]);
+      bytes += set.records.size() * sizeof(set.records[0]) + (set.rows.size() + set.colors.size()) * sizeof(set.rows[0]) + set.color_indices.size();
   return bytes;
 }
 } // namespace

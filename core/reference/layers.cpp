@@ -68,8 +68,7 @@ void LayerTracer::add(const Ray& ray, double limit, std::uint32_t placed, std::u
   if (two_surfaces_ || inside) offer(interval->t_out, true);
   if (!absorbs) return;
   const double from = std::max({interval->t_in, near_, 0.0}), to = std::min({interval->t_out, far_, limit});
-  const ChunkSet& chunks = *owner.tree->chunks;
-  const double own = chunks.colors.empty() ? 1.0 : double(chunks.colors[record] >> 24) / 255.0;
+  const double own = owner.tree->chunks->alpha_of(record);
   const double depth = batch.density * own * std::max(0.0, to - from) * glm::length(owner.linear * ray.direction);
   for (std::size_t i = before; i < out.size(); ++i) out[i].blocks = 1.0 - std::exp(-depth / double(out.size() - before));
 }
@@ -97,9 +96,7 @@ std::vector<Layer> LayerTracer::layers(const Ray& ray, double limit) const {
 double LayerTracer::alpha_of(const Layer& layer) const {
   if (layer.blocks >= 0.0) return layer.blocks;
   const Placed& p = world_.transparent_placed[layer.placed];
-  const ChunkSet& chunks = *p.tree->chunks;
-  const double own = chunks.colors.empty() ? 1.0 : double(chunks.colors[layer.record] >> 24) / 255.0;
-  const double alpha = world_.scene.batches[p.batch].alpha * own;
+  const double alpha = world_.scene.batches[p.batch].alpha * p.tree->chunks->alpha_of(layer.record);
   return two_surfaces_ ? 1.0 - std::sqrt(1.0 - alpha) : alpha;
 }
 

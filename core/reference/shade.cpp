@@ -19,7 +19,7 @@ glm::dvec3 particle_color(const World& world, const Placed& placed, std::uint32_
   }();
   const ChunkSet& chunks = *placed.tree->chunks;
   if (chunks.colors.empty()) return world.scene.batches[placed.batch].color;
-  const std::uint32_t c = chunks.colors[record];
+  const std::uint32_t c = chunks.color_of(record);
   return {linear[c & 255u], linear[(c >> 8) & 255u], linear[(c >> 16) & 255u]};
 }
 

@@ -23,10 +23,10 @@ namespace {
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool opaque(const ChunkSet& chunks, std::uint64_t record, double batch_alpha) {
-  return batch_alpha >= 1.0 && (chunks.colors.empty() || (chunks.colors[record] >> 24) == 255u);
+  return batch_alpha >= 1.0 && chunks.alpha_of(record) >= 1.0;
 }
 bool invisible(const ChunkSet& chunks, std::uint64_t record, double batch_alpha) {
-  return !(batch_alpha > 0.0) || (!chunks.colors.empty() && (chunks.colors[record] >> 24) == 0u);
+  return !(batch_alpha > 0.0) || !(chunks.alpha_of(record) > 0.0);
 }
 
 // Exact geometry of a record as numbers that compare: equal ones are duplicates.

@@ -3,6 +3,7 @@
 
 #include "core/base/parallel.hpp"
 #include "core/scene/morton.hpp"
+#include "core/scene/palette.hpp"
 
 #include <algorithm>
 #include <array>
@@ -127,7 +128,7 @@ float above(double x) {
   return f >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
 }
 
-void fill_chunk(const ParticleArrays& from, const Sorted& in, const Run& run, std::uint64_t c, ChunkSet& set) {
+void fill_chunk(const ParticleArrays& from, const Sorted& in, const Run& run, std::uint64_t c, const std::optional<Palette>& palette, ChunkSet& set) {
   const std::uint64_t rest = set.vec4s_per_record - 1;
   Chunk chunk;
   chunk.origin = rounded_origin(run);
@@ -142,7 +143,8 @@ void fill_chunk(const ParticleArrays& from, const Sorted& in, const Run& run, st
     std::copy_n(from.rest.begin() + static_cast<std::ptrdiff_t>(i * rest), rest, to + 1);
     chunk.max_radius = std::max(chunk.max_radius, record.w);
     set.rows[place] = from.rows[i];
-    if (!from.colors.empty()) set.colors[place] = from.colors[i];
+    if (palette) set.color_indices[place] = palette->index_of(from.colors[i]);
+    else if (!from.colors.empty()) set.colors[place] = from.colors[i];
     const glm::dvec3 half = from.half.empty() ? glm::dvec3(double{record.w}) : from.half[i];
     low = glm::min(low, glm::dvec3(record) - half);
     high = glm::max(high, glm::dvec3(record) + half);
@@ -165,10 +167,16 @@ ChunkSet build_chunks(const ParticleArrays& particles) {
   set.chunks.resize(runs.size());
   set.records.assign(set.record_count() * set.vec4s_per_record, glm::vec4(0.0f));
   set.rows.assign(set.record_count(), no_row);
-  if (!particles.colors.empty()) set.colors.assign(set.record_count(), 0u);
+  const std::optional<Palette> palette = find_palette(particles.colors);
+  if (palette) {
+    set.colors.assign(palette->colors().begin(), palette->colors().end());
+    set.color_indices.assign(set.record_count(), std::uint8_t{0});
+  } else if (!particles.colors.empty()) {
+    set.colors.assign(set.record_count(), 0u);
+  }
   parallel_parts(runs.size(), thread_count(runs.size(), chunks_per_thread),
                  [&](std::uint32_t, std::uint64_t begin, std::uint64_t end) {
-                   for (std::uint64_t c = begin; c < end; ++c) fill_chunk(particles, in, runs[c], c, set);
+                   for (std::uint64_t c = begin; c < end; ++c) fill_chunk(particles, in, runs[c], c, palette, set);
                  });
   for (const Chunk& chunk : set.chunks) {
     set.bounds.add(chunk.origin + glm::dvec3(chunk.box_min));

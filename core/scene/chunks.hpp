@@ -33,10 +33,15 @@ struct ChunkSet {
   std::uint32_t vec4s_per_record{1};
   PageVector<glm::vec4> records{};    // chunks.size() * 64 * vec4s_per_record
   PageVector<std::uint32_t> rows{};   // per record: row in the file, or no_row
-  PageVector<std::uint32_t> colors{}; // per record: sRGB-encoded straight RGBA, 8 bits each, R lowest; empty: the batch's color
+  PageVector<std::uint32_t> colors{}; // sRGB-encoded straight RGBA, 8 bits each, R lowest: one a record, or a palette; empty: the batch's color
+  PageVector<std::uint8_t> color_indices{}; // per record: which of `colors`, a palette then, in ascending order; empty: no palette
   std::vector<Chunk> chunks{};
   Bounds bounds{};                    // of all particles with radii, data set space
   [[nodiscard]] std::uint64_t record_count() const { return chunks.size() * std::uint64_t{chunk_capacity}; }
+  [[nodiscard]] bool paletted() const { return !color_indices.empty(); }
+  // The color of a record in use, where records have their own.
+  [[nodiscard]] std::uint32_t color_of(std::uint64_t record) const { return colors[paletted() ? color_indices[record] : record]; }
+  [[nodiscard]] double alpha_of(std::uint64_t record) const { return colors.empty() ? 1.0 : (color_of(record) >> 24) / 255.0; }
   // The exact center of a record: what the renderer's float32 record means.
   [[nodiscard]] glm::dvec3 center(std::uint64_t record) const {
     return chunks[record / chunk_capacity].origin + glm::dvec3(records[record * vec4s_per_record]);
@@ -52,9 +57,9 @@ struct ParticleArrays {
   std::span<const glm::dvec3> half{};      // half extents of boxes around the centers; empty: the radii
   std::span<const glm::vec4> rest{};       // the records' vec4s behind the first, vec4s_per_record - 1 each
   std::span<const std::uint32_t> rows{};   // in the file
-  std::span<const std::uint32_t> colors{}; // as ChunkSet::colors; may be empty
+  std::span<const std::uint32_t> colors{}; // one each, as in ChunkSet::colors; may be empty
 };
-// Deterministic; uses all cores.
+// Deterministic; uses all cores. Up to 256 different colors become a palette (core/scene/palette.hpp).
 ChunkSet build_chunks(const ParticleArrays& particles);
 
 // Spheres: records of one vec4.

@@ -116,8 +116,7 @@ void make_runs(OrderedParticles& out, const Seen& seen, const Scene& scene, cons
 } // namespace
 
 double alpha_of(const Batch& batch, std::uint64_t record) {
-  const ChunkSet& set = *batch.chunks;
-  return set.colors.empty() ? batch.alpha : batch.alpha * (set.colors[record] >> 24) / 255.0;
+  return batch.alpha * batch.chunks->alpha_of(record);
 }
 
 bool in_selection(Opacity opacity, double alpha) {

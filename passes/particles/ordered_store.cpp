@@ -12,6 +12,7 @@
 namespace mote::passes {
 namespace {
 
+constexpr std::uint32_t white = 0xFFFFFFFFu; // times the batch's color
 constexpr std::uint32_t bindings = 8; // shaders/particles/particle.glsl with ORDERED
 
 // Rows as std430 lays them out.
@@ -86,8 +87,7 @@ void OrderedStore::upload_sets(const Scene& scene, const Selection& selection) {
     bases_.push_back({&set, static_cast<std::uint32_t>(list.rows.size() / chunk_capacity)});
     list.records.insert(list.records.end(), set.records.begin(), set.records.end());
     list.rows.insert(list.rows.end(), set.rows.begin(), set.rows.end());
-    if (set.colors.empty()) list.colors.insert(list.colors.end(), set.rows.size(), 0xFFFFFFFFu); // white, times the batch's color
-    else list.colors.insert(list.colors.end(), set.colors.begin(), set.colors.end());
+    for (std::uint64_t i = 0; i < set.record_count(); ++i) list.colors.push_back(set.colors.empty() ? white : set.color_of(i));
     has_colors_ |= !set.colors.empty();
   }
   types_.clear();

@@ -22,7 +22,7 @@ template <class T> std::span<const std::byte> bytes_of(std::span<const T> values
 // A run of chunks of one set whose buffers fit a binding.
 struct Slice {
   std::uint64_t first_chunk{}, chunk_count{};
-  gpu::Buffer records{}, rows{}, colors{};
+  SliceBuffers buffers{};
 };
 
 struct Resident {
@@ -44,6 +44,7 @@ struct Run {
 
 struct ParticleStore::Impl {
   gpu::Device device;
+  std::uint64_t largest_binding{}; // bytes of a slice's records at most
   gpu::BindGroupLayout layout;
   gpu::Buffer nothing; // bound where there are no colors or no near particles; never read
   std::map<const ChunkSet*, Resident> residents;
@@ -71,9 +72,12 @@ struct ParticleStore::Impl {
   void add_near_slice(PlacedForTiles& placed_chunks, TiledView& out, Placements& placed);
 };
 
-ParticleStore::ParticleStore(gpu::Device device) : impl_(std::make_unique<Impl>()) {
+ParticleStore::ParticleStore(gpu::Device device) : ParticleStore(device, device.limits().max_storage_buffer_binding_size) {}
+
+ParticleStore::ParticleStore(gpu::Device device, std::uint64_t largest_binding) : impl_(std::make_unique<Impl>()) {
   impl_->device = std::move(device);
-  std::array<gpu::BindGroupLayoutEntry, 5> entries;
+  impl_->largest_binding = largest_binding;
+  std::array<gpu::BindGroupLayoutEntry, 6> entries;
   for (std::uint32_t i = 0; i < entries.size(); ++i)
     entries[i] = {.binding = i,
                   .visibility = gpu::ShaderStage::Vertex, // every expansion loads its record there
@@ -92,17 +96,21 @@ static_assert(page_bytes % gpu::host_page == 0);
 Resident ParticleStore::Impl::make_resident(const std::shared_ptr<const ChunkSet>& set) {
   Resident resident{set, {}};
   const std::uint64_t chunk_bytes = std::uint64_t{chunk_capacity} * set->vec4s_per_record * sizeof(glm::vec4);
-  // Slices start at pages of memory: a device on the processor then has no copy of its own.
-  const std::uint64_t chunks_per_page = page_bytes / (chunk_capacity * sizeof(std::uint32_t)), most = device.limits().max_storage_buffer_binding_size / chunk_bytes;
+  // Slices start at pages of memory, of the list with a byte a record, too: a device on the processor then has no copy of its own.
+  const std::uint64_t chunks_per_page = page_bytes / chunk_capacity, most = largest_binding / chunk_bytes;
   const std::uint64_t chunks_per_slice = std::max(chunks_per_page, most / chunks_per_page * chunks_per_page);
   for (std::uint64_t first = 0; first < set->chunks.size(); first += chunks_per_slice) {
     Slice slice;
     slice.first_chunk = first;
     slice.chunk_count = std::min<std::uint64_t>(chunks_per_slice, set->chunks.size() - first);
     const std::uint64_t record = first * chunk_capacity, count = slice.chunk_count * chunk_capacity;
-    slice.records = storage("particles.records", bytes_of(std::span(set->records).subspan(record * set->vec4s_per_record, count * set->vec4s_per_record)), set);
-    slice.rows = storage("particles.rows", bytes_of(std::span(set->rows).subspan(record, count)), set);
-    slice.colors = set->colors.empty() ? nothing : storage("particles.colors", bytes_of(std::span(set->colors).subspan(record, count)), set);
+    SliceBuffers& buffers = slice.buffers;
+    buffers.records = storage("particles.records", bytes_of(std::span(set->records).subspan(record * set->vec4s_per_record, count * set->vec4s_per_record)), set);
+    buffers.rows = storage("particles.rows", bytes_of(std::span(set->rows).subspan(record, count)), set);
+    buffers.paletted = set->paletted();
+    const std::span colors(set->colors);
+    buffers.colors = colors.empty() ? nothing : storage("particles.colors", bytes_of(buffers.paletted ? colors : colors.subspan(record, count)), set);
+    buffers.color_indices = buffers.paletted ? storage("particles.color_indices", bytes_of(std::span(set->color_indices).subspan(record, count)), set) : nothing;
     resident.slices.push_back(std::move(slice));
   }
   return resident;
@@ -131,11 +139,13 @@ void ParticleStore::upload(const Scene& scene) {
 gpu::BindGroup ParticleStore::Impl::group_for(Placements& placed, const Slice& slice) {
   gpu::BindGroup& group = placed.groups[&slice];
   if (!group) {
-    const std::array<gpu::BindGroupEntry, 5> entries{{{.binding = 0, .buffer = {&slice.records}},
-                                                      {.binding = 1, .buffer = {&slice.rows}},
-                                                      {.binding = 2, .buffer = {&slice.colors}},
+    const SliceBuffers& buffers = slice.buffers;
+    const std::array<gpu::BindGroupEntry, 6> entries{{{.binding = 0, .buffer = {&buffers.records}},
+                                                      {.binding = 1, .buffer = {&buffers.rows}},
+                                                      {.binding = 2, .buffer = {&buffers.colors}},
                                                       {.binding = 3, .buffer = {&placed.buffer}},
-                                                      {.binding = 4, .buffer = {placed.near_buffer ? &placed.near_buffer : &nothing}}}};
+                                                      {.binding = 4, .buffer = {placed.near_buffer ? &placed.near_buffer : &nothing}},
+                                                      {.binding = 5, .buffer = {&buffers.color_indices}}}};
     group = device.create_bind_group({.label = "particles", .layout = &layout, .entries = entries});
   }
   return group;
@@ -301,6 +311,7 @@ void ParticleStore::Impl::add_near_slice(PlacedForTiles& chunks, TiledView& out,
   write(buffers.records, "particles.near_records", bytes_of(std::span<const glm::vec4>(chunks.near_records)), placed);
   write(buffers.rows, "particles.near_rows", bytes_of(std::span<const std::uint32_t>(chunks.near_rows)), placed);
   write(buffers.colors, "particles.near_colors", bytes_of(std::span<const std::uint32_t>(chunks.near_colors)), placed);
+  buffers.color_indices = nothing;
   out.slices.push_back(buffers);
 }
 
@@ -332,7 +343,7 @@ void ParticleStore::place_tiles(const Scene& scene, const View& view, std::strin
           continue;
         }
         const auto [known, added] = slices.try_emplace(&slice, static_cast<std::uint32_t>(out.slices.size()));
-        if (added) out.slices.push_back({slice.records, slice.rows, slice.colors});
+        if (added) out.slices.push_back(slice.buffers);
         out.draws.push_back(tile_draw(batch, k, view, out.materials));
         if (placing.material) out.draws.back().material = placing.material(batch) & 0xFFFFu;
         out.draws.back().slice = known->second & 0x7FFFu;

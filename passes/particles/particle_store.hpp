@@ -55,7 +55,10 @@ struct PlacedView {
 
 // Buffers of one slice: a run of chunks of one set.
 struct SliceBuffers {
-  gpu::Buffer records{}, rows{}, colors{};
+  gpu::Buffer records{}, rows{};
+  gpu::Buffer colors{};        // one a record, or the palette
+  gpu::Buffer color_indices{}; // of a palette: a byte a record
+  bool paletted{};
 };
 // One view for the compute expansion: what tiles serve, and what they do not, as draws.
 struct TiledView {
@@ -80,6 +83,8 @@ struct TilePlacing {
 class ParticleStore {
 public:
   explicit ParticleStore(gpu::Device device);
+  // `largest_binding`: bytes that a buffer of records may have at most, for tests; else what the device can bind.
+  ParticleStore(gpu::Device device, std::uint64_t largest_binding);
   ~ParticleStore();
   ParticleStore(const ParticleStore&) = delete;
   ParticleStore& operator=(const ParticleStore&) = delete;

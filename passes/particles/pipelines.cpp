@@ -26,7 +26,7 @@ std::string fragment_of(const ParticlePipelineKey& key) {
 std::string to_string(const ParticlePipelineKey& k) {
   return fmt::format("{}{}{} / {} / {} aov={} {} lights={}{} specular={}{}", k.type, k.affine ? " affine" : "", k.near_eye ? " near" : "", to_string(k.expansion), to_string(k.phase), k.aovs,
                      k.orthographic ? "orthographic" : "perspective", k.light_count, k.local_lights ? " local" : "",
-                     k.specular_model, k.per_particle_color ? " colors" : "") + (k.head_light_only ? " head light" : "") + (k.step != Step::Depth ? " " + to_string(k.step) : "") + (k.box ? " box" : "");
+                     k.specular_model, k.paletted ? " palette" : k.per_particle_color ? " colors" : "") + (k.head_light_only ? " head light" : "") + (k.step != Step::Depth ? " " + to_string(k.step) : "") + (k.box ? " box" : "");
 }
 
 ParticlePipelineKey key_for(const Scene& scene, const View& view, const Batch& batch) {
@@ -41,6 +41,7 @@ ParticlePipelineKey key_for(const Scene& scene, const View& view, const Batch& b
   if (m.specular > 0.0 && m.model == ShadingModel::Phong) key.specular_model = 1;
   if (m.specular > 0.0 && m.model == ShadingModel::BlinnPhong) key.specular_model = 2;
   key.per_particle_color = !batch.chunks->colors.empty();
+  key.paletted = batch.chunks->paletted();
   key.head_light_only = key.specular_model == 0 && scene.lights.size() == 1 && scene.lights[0].kind == LightKind::Headlight;
   return key;
 }
@@ -56,6 +57,7 @@ std::vector<gpu::SpecializationConstant> particle_constants(const ParticlePipeli
 
 ParticlePipelineKey key_for_all(const Scene& scene, const View& view, bool& mixed) {
   ParticlePipelineKey all = key_for(scene, view, scene.batches.front());
+  all.paletted = false;
   mixed = false;
   for (const Batch& batch : scene.batches) {
     const ParticlePipelineKey own = key_for(scene, view, batch);
@@ -106,7 +108,8 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   const gpu::ShaderModule fragment = module(folder + "/" + fragment_of(key));
   const gpu::ShaderModule geometry_module = geometry ? module(folder + (key.box ? "/box.geom" : "/geometry.geom")) : gpu::ShaderModule();
   const std::vector<gpu::SpecializationConstant> constants = particle_constants(key);
-  std::vector<gpu::SpecializationConstant> fragment_constants = constants;
+  std::vector<gpu::SpecializationConstant> vertex_constants = constants, fragment_constants = constants;
+  vertex_constants.push_back(gpu::spec(9, key.paletted)); // every expansion loads its particle there
   if (key.step != Step::Depth) fragment_constants.push_back(gpu::spec(27, static_cast<std::uint32_t>(key.step)));
   std::vector<gpu::ColorTargetState> targets;
   for (const gpu::TextureFormat format : key.targets)
@@ -117,7 +120,7 @@ const gpu::RenderPipeline& ParticlePipelines::get(const ParticlePipelineKey& key
   const std::string label = to_string(key);
   descriptor.label = label;
   descriptor.layout = &layout_;
-  descriptor.vertex = {.module = &vertex, .constants = constants};
+  descriptor.vertex = {.module = &vertex, .constants = vertex_constants};
   if (geometry) descriptor.geometry = gpu::ProgrammableStage{.module = &geometry_module, .constants = constants};
   descriptor.fragment = gpu::ProgrammableStage{.module = &fragment, .constants = fragment_constants};
   descriptor.topology = geometry || point ? gpu::Topology::PointList : gpu::Topology::TriangleList;

@@ -31,7 +31,7 @@ struct ParticlePipelineKey {
   std::uint32_t light_count{};
   bool local_lights{};
   std::uint32_t specular_model{}; // 0 none, 1 Phong, 2 Blinn-Phong
-  bool per_particle_color{};
+  bool per_particle_color{}, paletted{}; // its colors are indices of a palette
   bool head_light_only{};
   bool show_depth_violation{};
   bool opaque_only{}; // particles of alpha below 1 draw as nothing

@@ -45,7 +45,7 @@ bool has_own_alpha(const Batch& batch) {
     if (k.set.lock() == batch.chunks) return k.alpha;
   const ChunkSet& set = *batch.chunks;
   bool alpha = false;
-  for (std::size_t i = 0; i < set.colors.size() && !alpha; ++i) alpha = set.colors[i] >> 24 != 255u && set.rows[i] != no_row;
+  for (std::size_t i = 0; i < set.colors.size() && !alpha; ++i) alpha = set.colors[i] >> 24 != 255u && (set.paletted() || set.rows[i] != no_row);
   std::erase_if(known, [](const Known& k) { return k.set.expired(); });
   known.push_back({batch.chunks, alpha});
   return alpha;

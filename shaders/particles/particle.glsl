@@ -44,7 +44,11 @@ layout(push_constant) uniform BatchBlock { BATCH_FIELDS } batch;
 
 layout(std430, set = 1, binding = 0) readonly buffer Records { vec4 records[]; };
 layout(std430, set = 1, binding = 1) readonly buffer Rows { uint rows[]; };
-layout(std430, set = 1, binding = 2) readonly buffer Colors { uint colors[]; };
+#define COLORS_BINDING 2
+#ifndef ORDERED
+#define COLOR_INDICES_BINDING 5
+#endif
+#include "particles/own_color.glsl"
 // One per chunk that may be visible: xyz the chunk's origin in view space (float bits), w the chunk's index.
 layout(std430, set = 1, binding = 3) readonly buffer Placements { uvec4 placements[]; };
 
@@ -91,7 +95,7 @@ Loaded load_particle(uint index) {
 #endif
   loaded.color = batch.color;
   if (per_particle_color) {
-    vec4 own = unpack_color(colors[slot]);
+    vec4 own = own_color(slot);
 #ifdef ORDERED
     own.rgb *= batch.color.rgb; // white for batches that have one color, whose row has white otherwise
 #endif

@@ -21,8 +21,8 @@ template <class T> std::vector<T> read(gpu::Device device, const gpu::Texture& t
 
 } // namespace
 
-Drawing::Drawing(gpu::Device device, const passes::FrameOptions& options, bool every_aov)
-    : device_(device), options_(options), every_aov_(every_aov), config_(ColorConfig::load()), store_(device) {
+Drawing::Drawing(gpu::Device device, const passes::FrameOptions& options, bool every_aov, std::uint64_t largest_binding)
+    : device_(device), options_(options), every_aov_(every_aov), config_(ColorConfig::load()), store_(device, largest_binding ? largest_binding : device.limits().max_storage_buffer_binding_size) {
   rg::Registry registry;
   passes::register_builtin_passes(registry);
   rg::CompileOptions roots;

@@ -17,7 +17,7 @@ class Drawing {
 public:
   // `every_aov`: AOVs and the linear picture are wanted, too; else the output alone, so that the tiles may do the display
   // pass's work.
-  Drawing(gpu::Device device, const passes::FrameOptions& options, bool every_aov = true);
+  Drawing(gpu::Device device, const passes::FrameOptions& options, bool every_aov = true, std::uint64_t largest_binding = 0);
   ~Drawing();
   // Vectors that nobody wanted are empty.
   Picture draw(const Scene& scene, const View& view);

@@ -203,7 +203,7 @@ TEST_F(UserTypes, ExactTransparencyEqualsTheTwin) {
       glm::dvec3 c(scene.background);
       for (const auto& [t, id] : surfaces) {
         const auto record = static_cast<std::size_t>(std::find(batch.chunks->rows.begin(), batch.chunks->rows.end(), id) - batch.chunks->rows.begin());
-        const std::uint32_t rgba = batch.chunks->colors[record];
+        const std::uint32_t rgba = batch.chunks->color_of(record);
         const auto linear = [](std::uint32_t v) { const double s = v / 255.0; return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); };
         const double a = 1.0 - std::sqrt(1.0 - (rgba >> 24) / 255.0);
         c = (1.0 - a) * c + a * 0.2 * glm::dvec3(linear(rgba & 255u), linear(rgba >> 8 & 255u), linear(rgba >> 16 & 255u));

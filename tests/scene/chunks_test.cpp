@@ -98,7 +98,7 @@ TEST(Chunks, ColorsFollowTheirParticles) {
   const ChunkSet set = p.build(colors);
   for (std::uint64_t i = 0; i < set.record_count(); ++i)
     if (set.rows[i] != no_row) {
-      ASSERT_EQ(set.colors[i], set.rows[i] + 1000u);
+      ASSERT_EQ(set.color_of(i), set.rows[i] + 1000u);
     }
 }
 
@@ -217,7 +217,8 @@ TEST(Chunks, RecordsStartAtPages) {
   const std::vector<double> radii(1000, 1.0);
   const std::vector<std::uint32_t> rows(1000, 0), colors(1000, 0);
   const ChunkSet set = build_spheres(centers, radii, rows, colors);
-  for (const void* at : {static_cast<const void*>(set.records.data()), static_cast<const void*>(set.rows.data()), static_cast<const void*>(set.colors.data())})
+  for (const void* at : {static_cast<const void*>(set.records.data()), static_cast<const void*>(set.rows.data()), static_cast<const void*>(set.colors.data()),
+                         static_cast<const void*>(set.color_indices.data())})
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(at) % page_bytes, 0u);
 }
 

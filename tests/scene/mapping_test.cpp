@@ -18,7 +18,7 @@ protected:
     write("a.csv", "x,y,z,v,kind\n0,0,0,-2,c\n1,0,0,1,a\n2,0,0,100,b\n3,0,0,nan,a\n4,0,0,10,c\n");
   }
   std::uint32_t gray(const Scene& s, std::uint32_t row) { return rgb(s, row) & 0xFFu; }
-  std::uint32_t alpha(const Scene& s, std::uint32_t row) { return s.batches.at(0).chunks->colors.at(place(s, row)) >> 24; }
+  std::uint32_t alpha(const Scene& s, std::uint32_t row) { return s.batches.at(0).chunks->color_of(place(s, row)) >> 24; }
 };
 
 TEST_F(Mapped, RangesOfAllKinds) {

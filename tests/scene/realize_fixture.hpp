@@ -36,7 +36,7 @@ protected:
   // Radius and color of the row, from the chunks.
   static float radius(const Scene& s, std::uint32_t row) { return s.batches.at(0).chunks->records.at(place(s, row)).w; }
   static std::uint32_t rgb(const Scene& s, std::uint32_t row) { // 0xRRGGBB
-    const std::uint32_t c = s.batches.at(0).chunks->colors.at(place(s, row));
+    const std::uint32_t c = s.batches.at(0).chunks->color_of(place(s, row));
     return (c & 0xFFu) << 16 | (c & 0xFF00u) | (c >> 16 & 0xFFu);
   }
   static std::size_t place(const Scene& s, std::uint32_t row) {

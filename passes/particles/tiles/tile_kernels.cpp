@@ -24,11 +24,11 @@ gpu::BindGroupLayout layout_of(gpu::Device& device, std::string_view label, std:
 }
 
 constexpr Type in = Type::ReadOnlyStorageBuffer, io = Type::StorageBuffer;
-constexpr std::array slice_types{in, in, in};
+constexpr std::array slice_types{in, in, in, in}; // chunk.glsl
 constexpr std::array binning_types{in, in, io, io, io, io, io, io, io, io, io, io, io, io, io}; // binning.glsl, splat.comp
 constexpr std::array cast_types{in, in, in, in, in, io, in, in, io, io, io, io, io, io, io, io}; // cast.comp
 constexpr std::array splat_far_types{in, in, io};
-constexpr std::array resolve_types{in, in, in, in, in, in, in, in, io, io, io, io, io, io, io, io}; // resolve_splats.comp, the eighth without use
+constexpr std::array resolve_types{in, in, in, in, in, in, in, in, io, io, io, io, io, io, io, io}; // resolve_splats.comp
 
 } // namespace
 
@@ -77,7 +77,7 @@ const gpu::ComputePipeline& TileKernels::kernel(const std::string& name) {
 const gpu::ComputePipeline& TileKernels::place(const PlaceKey& how) {
   if (auto it = places_.find(how); it != places_.end()) return it->second;
   const ParticlePipelineKey& key = how.drawing;
-  const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(4, key.per_particle_color), gpu::spec(7, key.proxy_slack), gpu::spec(11, (key.aovs & aov_id_bit) != 0),
+  const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(4, key.per_particle_color), gpu::spec(7, key.proxy_slack), gpu::spec(9, key.paletted), gpu::spec(11, (key.aovs & aov_id_bit) != 0),
                              gpu::spec(12, how.untested), gpu::spec(17, how.first_slice), gpu::spec(22, how.by_id)};
   const std::string shader = fmt::format("{}/tiles/place/{}/{}", key.type, lanes(device_), words_);
   return places_.emplace(how, make(shader, binning_pipelines_, constants)).first->second;
@@ -114,7 +114,7 @@ const gpu::ComputePipeline& TileKernels::shading(const CastKey& key, const Besid
       gpu::spec(7, d.proxy_slack), gpu::spec(8, d.type_number), gpu::spec(18, static_cast<std::uint32_t>(d.phase))};
   if (key.edges) constants.push_back(gpu::spec(21, true));
   if (key.by_id) constants.push_back(gpu::spec(22, true));
-  if (!cast) constants.insert(constants.end(), {gpu::spec(4, d.per_particle_color), gpu::spec(20, what == Shading::SplatsAlone)});
+  if (!cast) constants.insert(constants.end(), {gpu::spec(4, d.per_particle_color), gpu::spec(9, d.paletted), gpu::spec(20, what == Shading::SplatsAlone)});
   if (besides.shadows) {
     for (std::uint32_t k = 0; k < s.lights.size(); ++k) constants.push_back(gpu::spec(31 + k, s.lights[k]));
     constants.insert(constants.end(), {gpu::spec(30, s.maps), gpu::spec(35, s.orthographic), gpu::spec(36, s.by_id)});

@@ -75,7 +75,7 @@ void add_near(const ChunkSet& set, std::uint64_t chunk, const ChunkPlacer& place
   for (std::uint64_t record = chunk * chunk_capacity; record < (chunk + 1) * chunk_capacity; ++record) {
     out.near_records.push_back(placer.in_view(set, record, box));
     out.near_rows.push_back(set.rows[record]);
-    out.near_colors.push_back(set.colors.empty() ? 0u : set.colors[record]);
+    out.near_colors.push_back(set.colors.empty() ? 0u : set.color_of(record));
   }
 }
 

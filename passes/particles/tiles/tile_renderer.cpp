@@ -153,7 +153,7 @@ void TileRenderer::make_groups(const TiledView& view, const gpu::Buffer& winner_
   };
   slice_groups_.clear();
   for (const SliceBuffers& slice : view.slices)
-    slice_groups_.push_back(group("tiles.slice", kernels_.slice_layout(), {&slice.records, &slice.rows, &slice.colors}));
+    slice_groups_.push_back(group("tiles.slice", kernels_.slice_layout(), {&slice.records, &slice.rows, &slice.colors, &slice.color_indices}));
   const Buffers& b = buffers_;
   binning_group_ = group("tiles.binning", kernels_.binning_layout(),
                          {&b.chunks, &b.draws, &b.flags, &b.lists, &b.arguments, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.splats, &b.splat_lists, &b.casters});
@@ -166,7 +166,7 @@ void TileRenderer::make_groups(const TiledView& view, const gpu::Buffer& winner_
   splat_far_group_ = group("tiles.splat_far", kernels_.splat_far_layout(), {&b.splats, &b.nearest, &b.far});
   for (const SliceBuffers& slice : view.slices)
     resolve_groups_.push_back(group("tiles.resolve", kernels_.resolve_layout(),
-                                    {&b.materials, &slice.records, &slice.rows, &slice.colors, &b.chunks, &b.draws, &b.splats, &b.draws, &b.nearest,
+                                    {&b.materials, &slice.records, &slice.rows, &slice.colors, &b.chunks, &b.draws, &b.splats, &slice.color_indices, &b.nearest,
                                      narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color, &winner_colors}));
 }
 
@@ -257,6 +257,7 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
     block.others = others | (first_ && round == 0 ? 0u : 2u);
     gpu::ComputePass place = encoder.begin_compute_pass({.label = "tiles.place"});
     for (block.slice = 0; block.slice < slices; ++block.slice) {
+      placed.paletted = placed.per_particle_color && view.slices[block.slice].paletted;
       begin(place, kernels_.place({placed, !step.others || sifted || (first_ && round == 0), block.slice == 0, key.by_id}));
       place.dispatch_indirect(buffers_.indirect, offset(round, block.slice));
     }
@@ -326,7 +327,7 @@ void TileRenderer::record_splat_far(gpu::CommandEncoder& encoder, const StepBloc
   mark("splat far");
 }
 
-void TileRenderer::resolve_splats(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const CastKey& key, const TileTargets& targets, const Mark& mark) {
+void TileRenderer::resolve_splats(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, CastKey key, const TileTargets& targets, const Mark& mark) {
   const TileKernels::Besides besides{targets.map, targets.shadows, targets.cache_directory};
   for (std::uint32_t k = 0; k < resolve_groups_.size(); ++k) {
     const auto first = splats_.begin() + k * splat_sides;
@@ -334,6 +335,7 @@ void TileRenderer::resolve_splats(gpu::CommandEncoder& encoder, const gpu::BindG
     StepBlock block = block_;
     block.slice = k;
     gpu::ComputePass pass = encoder.begin_compute_pass({.label = "tiles.resolve"});
+    key.drawing.paletted = key.drawing.per_particle_color && view.slices[k].paletted;
     pass.set_pipeline(kernels_.resolve_splats(key, besides, splats_alone_));
     pass.set_bind_group(0, frame_group);
     pass.set_bind_group(1, resolve_groups_[k]);
@@ -387,7 +389,7 @@ void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, c
     first_ = false;
   }
   flags_fresh_ = false;
-  resolve_splats(encoder, frame_group, key, targets, mark);
+  resolve_splats(encoder, view, frame_group, key, targets, mark);
   if (targets.edges) record_edges(encoder, frame_group, key, targets, mark);
   copy_out(encoder, targets);
   mark("copy");

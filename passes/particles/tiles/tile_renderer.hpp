@@ -60,7 +60,7 @@ private:
   void list_splats(const TiledView& view);
   void record_splats(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, const ParticlePipelineKey& placed, const Mark& mark);
   void record_splat_far(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, bool orthographic, const Mark& mark);
-  void resolve_splats(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const CastKey& key, const TileTargets& targets, const Mark& mark);
+  void resolve_splats(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, CastKey key, const TileTargets& targets, const Mark& mark);
   void set_shading_groups(gpu::ComputePass& pass, const TileTargets& targets, const TileKernels::Besides& besides) const;
   void clear(gpu::CommandEncoder& encoder, const TileTargets& targets);
   void record_step(gpu::CommandEncoder& encoder, std::size_t index, const TiledView& view, const gpu::BindGroup& frame_group, const CastKey& key,

@@ -8,7 +8,9 @@
 
 layout(std430, set = 1, binding = 0) readonly buffer Records { uvec4 records[]; };
 layout(std430, set = 1, binding = 1) readonly buffer Rows { uint rows[]; };
-layout(std430, set = 1, binding = 2) readonly buffer FileColors { uint colors[]; };
+#define COLORS_BINDING 2
+#define COLOR_INDICES_BINDING 3
+#include "particles/own_color.glsl"
 
 // Eight words that start at `base`, the same for the whole subgroup.
 #define WORD(k) w[k] = subgroupShuffle(own, uint(k));

@@ -50,7 +50,7 @@ bool place_particle(Taken u, Chunk chunk, uint lane, bool valid) {
     pack(particle, payload);
     for (int i = 0; i < payload_vec4s; ++i) payloads[at * uint(payload_vec4s) + uint(i)] = floatBitsToUint(payload[i]);
     vec3 color = chunk.color;
-    if (per_particle_color) color = chunk.colored ? unpack_color(colors[slot]).rgb : color;
+    if (per_particle_color) color = chunk.colored ? own_color(slot).rgb : color;
     placed_colors[at] = pair(uvec2(packHalf2x16(color.rg), (packHalf2x16(vec2(color.b, 0.0)) & 0xFFFFu) | chunk.material << 16));
     if (want_ids) {
       uint id = chunk.id_base + rows[slot];

@@ -16,7 +16,9 @@ layout(constant_id = 20) const bool splats_only = false;        // nothing is ca
 
 layout(std430, set = 1, binding = 1) readonly buffer Records { uvec4 records[]; };
 layout(std430, set = 1, binding = 2) readonly buffer Rows { uint rows[]; };
-layout(std430, set = 1, binding = 3) readonly buffer FileColors { uint colors[]; };
+#define COLORS_BINDING 3
+#define COLOR_INDICES_BINDING 7
+#include "particles/own_color.glsl"
 layout(std430, set = 1, binding = 4) readonly buffer Chunks { uvec4 chunks[]; };
 layout(std430, set = 1, binding = 5) readonly buffer Draws { uvec4 draws[]; };
 layout(std430, set = 1, binding = 6) readonly buffer Splats { PAIR splats[]; };
@@ -37,7 +39,7 @@ Winner winner_at(uint who, out bool mine) {
   vec4 record[record_vec4s];
   for (int i = 0; i < record_vec4s; ++i) record[i] = uintBitsToFloat(records[slot * uint(record_vec4s) + uint(i)]);
   vec3 color = uintBitsToFloat(flags.xyz);
-  if (per_particle_color) color = (flags.w >> 31) != 0u ? unpack_color(colors[slot]).rgb : color;
+  if (per_particle_color) color = (flags.w >> 31) != 0u ? own_color(slot).rgb : color;
   Winner winner = Winner(place(record, at), color, flags.w & 0xFFFFu, 0u);
   if (want_id()) winner.id = linear1_id.w + rows[slot];
   return winner;
