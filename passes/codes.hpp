@@ -25,7 +25,7 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 21> p
     {"P015", "error: a shadow map is for a light that the scene does not have"},
     {"P016", "failed: a scene has more different materials than shading with shadow maps can tell apart"},
     {"P017", "error: a shadow map is for a light that one map cannot hold"},
-    {"P018", "error: a shadow map of casters meets a data set that is scaled unevenly; one of depths holds it"},
+    {"P018", "error: a shadow map of casters meets a data set that is scaled unevenly and has neither spheres nor ellipsoids; one of depths holds it"},
     {"P020", "warning: the device lacks what tiles need, so auto draws without them"},
     {"P021", "failed: analytic edges are asked of a particle type whose outlines are sampled only"},
     {"P022", "error: a particle type from a folder does not compile; the rest is drawn and the exit status is 3"},

@@ -23,6 +23,24 @@ namespace {
 
 using gpu::TextureFormat;
 
+// The type as which a map of casters holds particles. A placement that is no similarity makes spheres and ellipsoids ellipsoids
+// (shaders/particles/affine_caster.glsl); of other types it makes shapes that have no payload: empty.
+std::string caster_type(const std::string& type, bool affine) {
+  if (!affine) return type;
+  return type == "sphere" || type == "ellipsoid" ? "ellipsoid" : "";
+}
+
+// Of all that a map may hold.
+std::vector<std::string> caster_types(const Scene& scene, const Selection& selection) {
+  std::vector<std::string> types;
+  for (const Batch& batch : scene.batches)
+    for (const Instance& instance : batch.instances) {
+      const std::string type = selection.draws(batch) ? caster_type(batch.type, !similarity_scale(instance.world_from_data)) : "";
+      if (!type.empty() && std::find(types.begin(), types.end(), type) == types.end()) types.push_back(type);
+    }
+  return types;
+}
+
 class ShadowMap final : public rg::Pass, public MapInBuffers {
 public:
   void declare(std::vector<rg::Slot>& slots, rg::Params& params) override {
@@ -70,9 +88,7 @@ public:
     if (view) {
       info_.light = light;
       info_.view = *view;
-      info_.types.clear();
-      for (const Batch& batch : scene.batches)
-        if (selection_.draws(batch) && std::find(info_.types.begin(), info_.types.end(), batch.type) == info_.types.end()) info_.types.push_back(batch.type);
+      info_.types = caster_types(scene, selection_);
       place(context, scene, store, map);
       stays_ = stays_in_buffers(context);
       store.shadow_maps().publish(map, info_, stays_ ? this : nullptr);
@@ -192,8 +208,9 @@ private:
     gpu::RenderPass pass = context.encoder().begin_render_pass({.label = "shadow_map", .colors = colors, .depth = gpu::DepthAttachment{.view = &depth, .load = load}});
     for (const ParticleDraw& particles : placed_.draws) {
       if (!selection_.draws(*particles.batch)) continue;
-      if (ids_ && particles.affine)
-        fail(Exit::BadInput, "P018", light_loc_, fmt::format("'{}' is scaled unevenly; a map of casters holds shapes that are not", particles.batch->name),
+      const std::string held = caster_type(particles.batch->type, ids_ && particles.affine);
+      if (held.empty())
+        fail(Exit::BadInput, "P018", light_loc_, fmt::format("'{}' is scaled unevenly; so, a map of casters holds spheres and ellipsoids, but no particles of type '{}'", particles.batch->name, particles.batch->type),
              {"method = \"depth\" holds every shape."});
       ParticlePipelineKey key{.type = particles.batch->type, .phase = Phase::Shadow, .near_eye = particles.near_eye, .affine = particles.affine};
       key.orthographic = info_.view.projection == Projection::Orthographic;
@@ -202,8 +219,8 @@ private:
       key.paletted = key.opaque_only && particles.batch->chunks->paletted();
       key.proxy_slack = ids_ ? thin_ : 0.0f;
       key.targets = targets;
-      key.written = 1 + find_particle_type(key.type)->vec4s_per_payload;
-      key.type_number = number_of(*find_particle_type(key.type));
+      key.written = 1 + find_particle_type(held)->vec4s_per_payload;
+      key.type_number = number_of(*find_particle_type(held));
       key.depth = depth.format();
       pass.set_pipeline(pipelines_->get(key));
       pass.set_bind_group(0, frame_group_);

@@ -16,6 +16,8 @@
 //   Proxy proxy(Particle)                            bounds on the image
 //   bool intersect(Ray, Particle, out Interval)      where the ray is inside; on a miss the interval is one point
 //   bool passes_thin(Ray, Particle, Interval, float radius)   thinner than that and passed nearer than that; after a miss, too
+//   #define HAS_CASTER, void pack_caster(Particle, out vec4 caster[CASTER_VEC4S])   with AFFINE: what a map keeps of it, as another
+//                                                    type's payload (affine_caster.glsl); of types that have none such, maps keep nothing
 //   Outline outline(Ray, Particle, Interval)         where the ray's pixel lies to the outline; for analytic edges
 //   vec3 outward_normal(Ray, Particle, Interval, bool exit)   at one end of the interval; unit
 //   with HAS_INNER_ENDS: bool inner_end(Interval, bool exit)   that end lies within a neighbor of one body: no surface

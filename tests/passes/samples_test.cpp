@@ -199,6 +199,28 @@ TEST_P(AnalyticEdges, CoverageInPerspective) {
   EXPECT_LE(edge_error(draw(scene, camera, {}, {"opaque.edges=\"analytic\""}), area), 0.018);
 }
 
+// A transform that is no similarity makes ellipses of the outlines; the record's radius says nothing about their size then.
+TEST_P(AnalyticEdges, StretchedAndShearedSpheres) {
+  const auto stretched = [](double radius, int n, double spacing, const glm::dmat3& linear) {
+    Scene scene = grid(radius, n, spacing);
+    scene.batches[0].instances[0].world_from_data = glm::dmat4(linear);
+    return scene;
+  };
+  const Scene large = stretched(0.2, 5, 0.7, glm::dmat3(40, 0, 12, 16, 24, -9, 5, 0, 30));
+  const auto analytic = [&](const Scene& scene, const View& camera) { return draw(scene, camera, {}, {"opaque.edges=\"analytic\""}); };
+  for (const View& camera : {view(300), look(scene_of({{100, 60, 0, 100}}), {100, 60, 260}, {100, 60, 0}, {220, 160}, 38.0)}) {
+    const auto area = render_reference_area(reference::build_world(large), camera, 12);
+    EXPECT_LE(edge_error(analytic(large, camera), area), 0.03);
+    EXPECT_GT(edge_error(draw(large, camera), area), 0.2) << "the measure sees one sample";
+  }
+  for (const double radius : {0.05, 0.25}) { // half axes of up to 0.6 pixels
+    const Picture p = analytic(stretched(radius, 15, 6, glm::dmat3(2.4, 0, 0.5, 0, 1.2, 0, 0, 0, 3)), view(256));
+    EXPECT_NEAR(energy(p) / (225 * 3.14159265 * radius * radius * 2.4 * 1.2), 1.0, 0.02) << radius;
+  }
+  const Picture needles = analytic(stretched(1.0, 4, 20, glm::dmat3(6, 0, 0, 0, 0.1, 0, 0, 0, 1)), view(480)); // covered or not
+  for (const glm::vec4& c : needles.color) EXPECT_TRUE(c.g < 0.01f || c.g > 0.99f) << c.g;
+}
+
 // FC-53: the light of spheres below a pixel is that of their area.
 TEST_P(AnalyticEdges, EnergyBelowAPixel) {
   for (const double radius : {0.02, 0.1, 0.3, 0.5, 0.7, 0.84, 0.9, 1.0}) {

@@ -36,6 +36,14 @@ bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
 }
 Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return sampled_outline(intersect(ray, p, again)); }
 
+#ifdef AFFINE
+#include "particles/affine_caster.glsl"
+void pack_caster(Particle p, out vec4 caster[CASTER_VEC4S]) {
+  mat3 axes = half_axes(p);
+  pack_sheared_ellipsoid(p.center, mat3(from_own(axes[0]), from_own(axes[1]), from_own(axes[2])), caster);
+}
+#endif
+
 #ifdef TILES
 Proxy tile_proxy(Particle p) { return proxy(p); }
 

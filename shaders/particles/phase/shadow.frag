@@ -33,10 +33,16 @@ void main() {
   if (!(t > 0.0 && t <= frame.sample_near_far.w)) discard;
   gl_FragDepth = encode_depth(t);
 #ifdef SHADOW_IDS
-  o_caster = floatBitsToUint(v_payload[0]);
+  vec4 caster[CASTER_VEC4S];
+#ifdef HAS_CASTER
+  pack_caster(particle, caster);
+#else
+  for (int i = 0; i < CASTER_VEC4S; ++i) caster[i] = v_payload[i];
+#endif
+  o_caster = floatBitsToUint(caster[0]);
   o_id = uvec4(v_id, type_number, 0u, 0u);
 #if CASTER_VEC4S > 1
-  for (int i = 1; i < CASTER_VEC4S; ++i) o_rest[i - 1] = floatBitsToUint(v_payload[i]);
+  for (int i = 1; i < CASTER_VEC4S; ++i) o_rest[i - 1] = floatBitsToUint(caster[i]);
 #endif
 #endif
 }

@@ -5,7 +5,9 @@
 
 #include "particles/bounds.glsl"
 
+#ifndef AFFINE
 #define CASTER_VEC4S 1
+#endif
 const int record_vec4s = 1;
 #ifdef NEAR_EYE
 const int payload_vec4s = 3;
@@ -101,6 +103,25 @@ vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) {
   float h = exit ? hit.local.w : -hit.local.w;
   return (hit.local.xyz + h * ray.direction) * (1.0 / p.radius);
 }
+
+// Is the sphere thinner than `radius`, and does the ray pass it nearer than that? A miss has its interval at that place.
+bool passes_thin(Ray ray, Particle p, Interval hit, float radius) { return p.radius < radius && length(hit.local.xyz) < radius; }
+
+// Where the pixel of a ray lies to the sphere's outline on the image, in pixels (method book, section 8.4): to first
+// order F / |grad F| of F = (d.m)^2 - (d.d)(|m|^2 - r^2), from what the hit has, without cancellation.
+Outline outline(Ray ray, Particle p, Interval hit) {
+  vec3 l = hit.local.xyz;
+  float distance = length(l), d2 = (p.radius - distance) * (p.radius + distance), focal = frame.viewport.z;
+  float middle = 0.5 * (hit.t_in + hit.t_out);
+  vec2 outward = orthographic ? l.xy : middle * l.xy - d2 / dot(ray.direction, ray.direction) * ray.direction.xy;
+  float slope = max(length(outward), 1e-30);
+  Outline o;
+  o.inside = orthographic ? focal * (p.radius - distance) : focal * d2 / (2.0 * slope);
+  o.inward = -outward / slope;
+  o.radius = focal * p.radius / (orthographic ? 1.0 : p.center.z);
+  o.offset = orthographic ? focal * (p.center.xy - ray.origin.xy) : focal * (p.center.xy / p.center.z - ray.direction.xy);
+  return o;
+}
 #endif
 
 #ifdef TILES
@@ -170,25 +191,6 @@ Outline tile_outline(Particle p, float x, float y, float focal, out float key) {
   return o;
 }
 #endif
-// Is the sphere thinner than `radius`, and does the ray pass it nearer than that? A miss has its interval at that place.
-bool passes_thin(Ray ray, Particle p, Interval hit, float radius) { return p.radius < radius && length(hit.local.xyz) < radius; }
-
-// Where the pixel of a ray lies to the sphere's outline on the image, in pixels (method book, section 8.4): to first
-// order F / |grad F| of F = (d.m)^2 - (d.d)(|m|^2 - r^2), from what the hit has, without cancellation.
-Outline outline(Ray ray, Particle p, Interval hit) {
-  vec3 l = hit.local.xyz;
-  float distance = length(l), d2 = (p.radius - distance) * (p.radius + distance), focal = frame.viewport.z;
-  float middle = 0.5 * (hit.t_in + hit.t_out);
-  vec2 outward = orthographic ? l.xy : middle * l.xy - d2 / dot(ray.direction, ray.direction) * ray.direction.xy;
-  float slope = max(length(outward), 1e-30);
-  Outline o;
-  o.inside = orthographic ? focal * (p.radius - distance) : focal * d2 / (2.0 * slope);
-  o.inward = -outward / slope;
-  o.radius = focal * p.radius / (orthographic ? 1.0 : p.center.z);
-  o.offset = orthographic ? focal * (p.center.xy - ray.origin.xy) : focal * (p.center.xy / p.center.z - ray.direction.xy);
-  return o;
-}
-
 #ifdef SHADOW_RAY
 // As below in mask_ids.frag, with less: no distance of a shadow ray is large.
 #define HAS_BLOCKS
