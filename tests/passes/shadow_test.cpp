@@ -187,7 +187,7 @@ TEST_P(Shadows, BatchesAndInstances) {
   scene.batches.push_back(more.batches[0]);
   scene.bounds.add(more.bounds);
   const View view = look(scene, {18, 12, 55}, {0, 0, 0}, {320, 240});
-  const ShadowErrors e = errors(draw(scene, view), scene, view);
+  const ShadowErrors e = shadow_errors(draw(scene, view), scene, view);
   EXPECT_EQ(tiled_, GetParam() == Expansion::Compute);
   EXPECT_GT(e.shadowed, 2000u);
   EXPECT_LE(e.wrong(), 1e-3) << e.false_shadow << " false shadow, " << e.false_light << " false light of " << e.facing;
