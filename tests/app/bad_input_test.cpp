@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& row) { return std::string(row.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(Device, BadInputTable,
-                         ::testing::Values(BadInput{"MemoryForTheScene", "render spheres:1e5:fit -o out.png --memory 1M", 1, "A025", "the particles of the scene need 2.3 MiB, pictures come on top; allowed are 1.0 MiB"},
+                         ::testing::Values(BadInput{"MemoryForTheScene", "render spheres:1e5:fit -o out.png --memory 1M", 1, "A025", "the particles of the scene need 2.0 MiB, pictures come on top; allowed are 1.0 MiB"},
                                            BadInput{"MemoryForThePicture", "render spheres:1e3:fit -o out.png --memory 2M", 1, "G071", "the whole graph takes 14 MiB at this size"},
                                            BadInput{"no_such_device", "render good.csv --device nosuch -o out.png", 4, "V-ADPT-002", "nosuch"},
                                            BadInput{"no_window", "good.csv", 1, "A010", "mote render good.csv -o picture.png"},

@@ -151,6 +151,7 @@ TEST(TilePlacement, ChunksAcrossTheFarCut) {
   Camera camera;
   camera.projection = Projection::Orthographic;
   camera.eye = {0, 0, 60};
+  camera.up = {0, 1, 0};
   camera.height = 10.0;
   View view = make_view(camera, {61, 43}, 30.0);
   const double first = view.to_view({0, 0, 2}).z - 0.5, last = view.to_view({0, 0, -2}).z + 0.5;
