@@ -210,7 +210,7 @@ private:
       if (!selection_.draws(*particles.batch)) continue;
       const std::string held = caster_type(particles.batch->type, ids_ && particles.affine);
       if (held.empty())
-        fail(Exit::BadInput, "P018", light_loc_, fmt::format("'{}' is scaled unevenly; so, a map of casters holds spheres and ellipsoids, but no particles of type '{}'", particles.batch->name, particles.batch->type),
+        fail(Exit::BadInput, "P018", light_loc_, fmt::format("'{}' is scaled unevenly; a map of casters holds spheres and ellipsoids that are, but no particles of type '{}'", particles.batch->name, particles.batch->type),
              {"method = \"depth\" holds every shape."});
       ParticlePipelineKey key{.type = particles.batch->type, .phase = Phase::Shadow, .near_eye = particles.near_eye, .affine = particles.affine};
       key.orthographic = info_.view.projection == Projection::Orthographic;

@@ -228,7 +228,7 @@ TEST_F(AffineGlyphShadows, OtherTypesAreRefused) {
   EXPECT_EQ(message(scene, {}), "it was drawn");
   scene.batches[1].instances[0].world_from_data[1][0] = 0.5; // sheared
   EXPECT_EQ(message(scene, {"shadow.method=\"depth\""}), "it was drawn");
-  EXPECT_THAT(message(scene, {}), testing::AllOf(HasSubstr("error P018: 'rods' is scaled unevenly; so, a map of casters holds spheres and ellipsoids, but no particles of type 'cylinder'"),
+  EXPECT_THAT(message(scene, {}), testing::AllOf(HasSubstr("error P018: 'rods' is scaled unevenly; a map of casters holds spheres and ellipsoids that are, but no particles of type 'cylinder'"),
                                                  HasSubstr("method = \"depth\" holds every shape")));
 }
 
