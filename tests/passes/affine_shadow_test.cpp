@@ -2,14 +2,13 @@
 // Shadows of spheres and ellipsoids that a transform scales unevenly or shears, by the default map: against an outline known in closed
 // form, the same shapes given as type `ellipsoid`, and the reference's shadow rays; by every expansion.
 #include "harness.hpp"
-#include "shadow_errors.hpp"
+#include "shadow_harness.hpp"
+#include "transforms.hpp"
 
 #include "core/base/diagnostic.hpp"
 #include "core/math/principal_axes.hpp"
 #include "core/reference/reference.hpp"
-#include "passes/particles/expansion_choice.hpp"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include <gmock/gmock.h>
@@ -23,20 +22,6 @@ namespace {
 using passes::Expansion;
 using testing::HasSubstr;
 
-glm::dmat4 scaled(double x, double y, double z) { return glm::scale(glm::dmat4(1.0), glm::dvec3(x, y, z)); }
-glm::dmat4 turned(double angle, const glm::dvec3& axis) { return glm::rotate(glm::dmat4(1.0), angle, glm::normalize(axis)); }
-glm::dmat4 moved(double x, double y, double z) { return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, z)); }
-// Turn, stretch, turn, shear, mirror: nothing is left of a similarity.
-glm::dmat4 general() {
-  glm::dmat4 sheared(1.0);
-  sheared[1][0] = 0.8; // x grows by 0.8 y
-  sheared[0][2] = -0.4;
-  return scaled(-1, 1, 1) * sheared * turned(0.6, {1, 2, 3}) * scaled(1.5, 1.0, 0.4) * turned(1.1, {0, 1, 1});
-}
-
-Light sun(glm::dvec3 direction) {
-  return {.name = "sun", .kind = LightKind::Directional, .direction = glm::normalize(direction), .intensity = 0.8, .shadows = true};
-}
 Light spot(glm::dvec3 position, glm::dvec3 target, double angle) {
   return {.name = "spot", .kind = LightKind::Spot, .direction = glm::normalize(target - position), .position = position, .intensity = 0.8,
           .inner_angle = 0.8 * angle, .outer_angle = angle, .shadows = true};
@@ -46,16 +31,7 @@ Scene lit(Scene scene, const Light& light) {
   return scene;
 }
 
-class AffineShadows : public GpuTest, public testing::WithParamInterface<Expansion> {
-protected:
-  AffineShadows() { graph_ = "shadowed"; }
-  Picture draw(const Scene& scene, const View& view, const std::vector<std::string>& settings = {}) {
-    passes::FrameOptions options{.expansion = GetParam()};
-    options.chosen = [this](const passes::ExpansionReport& report) { tiled_ = report.tiled > 0; };
-    return GpuTest::draw(scene, view, options, settings);
-  }
-  bool tiled_{}; // whether the last picture had tiles
-};
+class AffineShadows : public ShadowTest {};
 INSTANTIATE_TEST_SUITE_P(, AffineShadows, testing::Values(Expansion::Vertex, Expansion::Geometry, Expansion::Compute, Expansion::Point),
                          [](const auto& p) { return std::string(to_string(p.param)); });
 
@@ -131,7 +107,7 @@ TEST_P(AffineShadows, NoAcneAtLimbs) {
   const Scene scene = lit(placed(scene_of({{0, 0, 0, 2}}), {general()}), sun({1, -0.2, -0.1}));
   const View view = look(scene, {0, 2, 14}, {0, 0, 0}, {240, 240});
   for (const std::string& size : {std::string("32"), std::string("1024")}) {
-    const ShadowErrors e = shadow_errors(draw(scene, view, {"shadow.size=" + size}), scene, view);
+    const ShadowErrors e = shadow_errors(draw(scene, view, {}, {"shadow.size=" + size}), scene, view);
     EXPECT_GT(e.facing, 4000u);
     EXPECT_EQ(e.false_shadow + e.false_light, 0u);
   }
@@ -174,7 +150,7 @@ TEST_P(AffineShadows, CastersBelowATexel) {
   for (int i = 0; i < 40; ++i) spheres.push_back({u(random), 2.5 * u(random), 10 * u(random), 0.8});
   const Scene scene = lit(joined(scene_of({{0, -8, 0, 8}}), placed(scene_of(spheres), {moved(0, 3, 0) * scaled(1.0, 0.06, 0.06)})), sun({0.05, -1, 0.02}));
   const View view = look(scene, {0, 15, 25}, {0, 0, 0}, {400, 260}, 30.0);
-  const ShadowErrors e = shadow_errors(draw(scene, view, {"shadow.size=128"}), scene, view); // texel 0.13, needles 0.096 across
+  const ShadowErrors e = shadow_errors(draw(scene, view, {}, {"shadow.size=128"}), scene, view); // texel 0.13, needles 0.096 across
   EXPECT_GT(e.shadowed, 300u);
   EXPECT_LE(static_cast<double>(e.false_light), 0.2 * static_cast<double>(e.shadowed)) << "of " << e.shadowed;
   EXPECT_EQ(e.false_shadow, 0u);
@@ -214,12 +190,7 @@ TEST_F(AffineGlyphShadows, EllipsoidsEqualShadowRays) {
 
 TEST_F(AffineGlyphShadows, OtherTypesAreRefused) {
   const auto message = [&](const Scene& scene, const std::vector<std::string>& settings) {
-    try {
-      draw(scene, look(scene, {0, 0, 20}, {0, 0, 0}, {64, 64}), {}, settings);
-    } catch (const Failure& failure) {
-      return std::string(failure.what());
-    }
-    return std::string("it was drawn");
+    return failure_of([&] { draw(scene, look(scene, {0, 0, 20}, {0, 0, 0}, {64, 64}), {}, settings); });
   };
   const std::vector<Glyph> rods{{{0, 0, 0}, 1.2, 0.3, {glm::vec4(0.7, 0.7, 0, 0.3), glm::vec4(0.3, 0, 0, 0)}}};
   Scene scene = lit(joined(scene_of({{0, 0, -3, 1}}), glyph_scene("cylinder", rods)), sun({1, -1, -1}));

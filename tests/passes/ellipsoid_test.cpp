@@ -2,8 +2,7 @@
 // Spheres under transforms that are no similarities: exact ellipsoids, against closed forms and the
 // double-precision reference, by every expansion.
 #include "harness.hpp"
-
-#include <glm/gtc/matrix_transform.hpp>
+#include "transforms.hpp"
 
 #include <cmath>
 
@@ -11,18 +10,6 @@ namespace mote::test {
 namespace {
 
 class Ellipsoid : public GpuTest {};
-
-glm::dmat4 scaled(double x, double y, double z) { return glm::scale(glm::dmat4(1.0), glm::dvec3(x, y, z)); }
-glm::dmat4 turned(double angle, const glm::dvec3& axis) { return glm::rotate(glm::dmat4(1.0), angle, glm::normalize(axis)); }
-glm::dmat4 moved(double x, double y, double z) { return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, z)); }
-glm::dmat4 sheared() {
-  glm::dmat4 m(1.0);
-  m[1][0] = 0.8; // x grows by 0.8 y
-  m[0][2] = -0.4;
-  return m;
-}
-// Turn, stretch, turn, shear, mirror: nothing is left of a similarity.
-glm::dmat4 general() { return scaled(-1, 1, 1) * sheared() * turned(0.6, {1, 2, 3}) * scaled(1.5, 1.0, 0.4) * turned(1.1, {0, 1, 1}); }
 
 // Half axes 3, 2, 1 with the eye on the third one at distance 10: the silhouette cone is
 // (x/z)^2 / 3^2 + (y/z)^2 / 2^2 = 1 / (10^2 - 1^2), the nearest point lies 9 in front.

@@ -3,12 +3,10 @@
 // reference's shadow rays. "Wrong" is a pixel that faces the light and shows light where the ray is
 // blocked, or the reverse (method book, section 8.2; failure cases FC-42, FC-44).
 #include "harness.hpp"
-#include "shadow_errors.hpp"
+#include "shadow_harness.hpp"
 
-#include "core/base/diagnostic.hpp"
 #include "core/reference/reference.hpp"
 #include "core/scene/generated.hpp"
-#include "passes/particles/expansion_choice.hpp"
 
 #include <fmt/format.h>
 
@@ -26,21 +24,8 @@ namespace {
 using passes::Expansion;
 using testing::HasSubstr;
 
-// With every way of drawing maps and surfaces: quads, and tiles.
-class Shadows : public GpuTest, public testing::WithParamInterface<Expansion> {
+class Shadows : public ShadowTest {
 protected:
-  Shadows() { graph_ = "shadowed"; }
-
-  Picture draw(const Scene& scene, const View& view, passes::FrameOptions options = {}, const std::vector<std::string>& settings = {}) {
-    options.expansion = GetParam();
-    options.chosen = [this](const passes::ExpansionReport& report) { tiled_ = report.tiled > 0; };
-    return GpuTest::draw(scene, view, options, settings);
-  }
-  bool tiled_{}; // whether the last picture had tiles
-
-  static Light sun(glm::dvec3 direction) {
-    return {.name = "sun", .kind = LightKind::Directional, .direction = glm::normalize(direction), .intensity = 0.8, .shadows = true};
-  }
   static Scene cloud(std::size_t n, double radius, const Light& light) {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> u(-10, 10);
@@ -297,12 +282,7 @@ TEST_P(Shadows, TransparentParticlesCastNoneUnlessAsked) {
 class ShadowMistakes : public Shadows {
 protected:
   std::string message(const Scene& scene, const std::vector<std::string>& settings) {
-    try {
-      draw(scene, look(scene, {0, 0, 20}, {0, 0, 0}, {64, 64}), {}, settings);
-    } catch (const Failure& failure) {
-      return failure.what();
-    }
-    return "it was drawn";
+    return failure_of([&] { draw(scene, look(scene, {0, 0, 20}, {0, 0, 0}, {64, 64}), {}, settings); });
   }
 };
 

@@ -40,6 +40,7 @@ uint index_of(Taken u, ivec2 pixel) {
   ivec2 p = clamp(pixel, ivec2(0), u.last); // beyond the picture: its edge
   return uint(p.y) * u.width + uint(p.x);
 }
+
 // What covers a pixel, nearest first; the four nearest.
 float key0, key1, key2, key3, cover0, cover1, cover2, cover3;
 uvec2 color0, color1, color2, color3;

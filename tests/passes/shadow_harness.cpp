@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "shadow_errors.hpp"
+#include "shadow_harness.hpp"
 
 #include "core/reference/reference.hpp"
 
 namespace mote::test {
+
+Light sun(glm::dvec3 direction) {
+  return {.name = "sun", .kind = LightKind::Directional, .direction = glm::normalize(direction), .intensity = 0.8, .shadows = true};
+}
 
 ShadowErrors shadow_errors(const Picture& picture, const Scene& scene, const View& view) {
   ReferenceOptions options;
