@@ -143,7 +143,7 @@ private:
     if (deferred_ && !TileShadows::can_hold(lights_)) return false;
     TileWish wish{context.frame().get<Scene>(), context.frame().get<View>(), selection_};
     wish.slot = 0x80000000u; // of no map and no camera
-    wish.placing.margin = TileEdges::margin;
+    wish.edges = true;
     if (!edges_.place(context.device(), store, pipelines_->frame_layout(), wish) || !edges_.rest().draws.empty()) return false;
     if (deferred_) update_tile_shadows(context);
     return true;

@@ -32,9 +32,11 @@
 //   TileTest tile_test(Particle, bool alive)         not alive: no ray meets it
 //   bool tile_nearer(TileTest, float x, float y, inout float key)   does the entry at the ray (x, y, 1) lie before
 //                                                    the key (depth times |ray|^2)? then the key is replaced
-//   #define HAS_TILE_OUTLINE, Outline tile_outline(Particle, float x, float y, float focal, out float key)   for analytic edges: as
-//                                                    outline() at the ray (x, y, 1), and the key of the entry (on a miss: of the ray's middle);
-//                                                    such a type has one vec4 of payload
+//   with ANALYTIC_EDGES, of types in `types_with_edges` (shaders/CMakeLists.txt):
+//   float tile_band                                  outline_reach in tangents, set before tile_test()
+//   Meeting tile_meets(TileTest, float x, float y)   how the pixel of the ray (x, y, 1) meets the particle
+//   Outline tile_outline(Particle, float x, float y, float focal)   as outline() at that ray
+//   float tile_entry(Particle, float x, float y)     the key of the entry there; on a miss of the ray's middle
 //   #define TILE_LOOP                                where tile_nearer() is long: it is compiled once, not for each pixel
 //   vec3 normal_at(Ray, Particle, float t)           unit, outward, at a point of the surface; to 1e-4 rad where a
 //                                                    particle covers a pixel or more
@@ -73,6 +75,15 @@ struct Outline {
   float radius; // of curvature
   vec2 offset;  // from the pixel's center to the particle's
 };
+
+#ifdef ANALYTIC_EDGES
+// Pixels from a pixel's center within which an outline is looked for: what one farther away cuts off is less than 0.005 of the pixel.
+const float outline_reach = 0.64;
+struct Meeting {
+  float key;                 // of the entry; on a miss of the ray's middle
+  bool covers, at_outline;   // the pixel's center; the outline may run through the pixel
+};
+#endif
 
 #include "type.glsl"
 

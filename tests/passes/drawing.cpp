@@ -21,14 +21,14 @@ template <class T> std::vector<T> read(gpu::Device device, const gpu::Texture& t
 
 } // namespace
 
-Drawing::Drawing(gpu::Device device, const passes::FrameOptions& options, bool every_aov, std::uint64_t largest_binding)
+Drawing::Drawing(gpu::Device device, const passes::FrameOptions& options, bool every_aov, std::uint64_t largest_binding, const std::vector<std::string>& settings)
     : device_(device), options_(options), every_aov_(every_aov), config_(ColorConfig::load()), store_(device, largest_binding ? largest_binding : device.limits().max_storage_buffer_binding_size) {
   rg::Registry registry;
   passes::register_builtin_passes(registry);
   rg::CompileOptions roots;
   if (every_aov)
     for (const char* source : {"opaque.color", "opaque.aov_depth", "opaque.aov_id", "opaque.aov_normal"}) roots.roots.push_back({source, {"test"}});
-  auto graph = rg::compile_file(MOTE_SOURCE_DIR "/app/graphs/default.toml", registry, roots, {});
+  auto graph = rg::compile_file(MOTE_SOURCE_DIR "/app/graphs/default.toml", registry, roots, settings);
   EXPECT_TRUE(graph.plan) << to_string(graph.diagnostics);
   executor_ = std::make_unique<rg::Executor>(device_, *graph.plan, graph.passes);
   executor_->set_stage_times(true);

@@ -16,8 +16,8 @@ namespace mote::test {
 class Drawing {
 public:
   // `every_aov`: AOVs and the linear picture are wanted, too; else the output alone, so that the tiles may do the display
-  // pass's work.
-  Drawing(gpu::Device device, const passes::FrameOptions& options, bool every_aov = true, std::uint64_t largest_binding = 0);
+  // pass's work. `settings`: "pass.param=value" each.
+  Drawing(gpu::Device device, const passes::FrameOptions& options, bool every_aov = true, std::uint64_t largest_binding = 0, const std::vector<std::string>& settings = {});
   ~Drawing();
   // Vectors that nobody wanted are empty.
   Picture draw(const Scene& scene, const View& view);

@@ -86,6 +86,24 @@ TEST(TilePlan, AFewChunksAreSeenBeforeTheOthersAndManyInParts) {
   EXPECT_GT(plan_tiles(random_chunks(20000, 1), 640, 360, 1u << 21).steps.size(), 5u) << "the nearest sixteenth goes first";
 }
 
+// Asked for, and held by one round: the others are one step, whose entries join those of the first. Else rounds as ever, and never with splats.
+TEST(TilePlan, GatheredWhereOneRoundHoldsAll) {
+  std::vector<TileChunk> chunks = random_chunks(5000, 1);
+  std::uint64_t reserved = 0;
+  for (const TileChunk& chunk : chunks) reserved += reserved_entries(chunk);
+  const auto enough = static_cast<std::uint32_t>(reserved);
+  const TilePlan plan = plan_tiles(chunks, 640, 360, enough, true);
+  EXPECT_TRUE(plan.gathered);
+  EXPECT_EQ(plan.steps, (std::vector<TileStep>{{0, 5000, false, 1}, {0, 5000, true, 1}}));
+  EXPECT_GE(plan.list_capacity, 5000u);
+  EXPECT_GE(plan.most_entries, enough);
+  EXPECT_EQ(plan_tiles(chunks, 640, 360, enough - 1, true).steps, plan_tiles(chunks, 640, 360, enough - 1).steps);
+  EXPECT_FALSE(plan_tiles(chunks, 640, 360, enough - 1, true).gathered);
+  EXPECT_FALSE(plan_tiles(chunks, 640, 360, enough).gathered) << "not asked for";
+  chunks[7].side = 1;
+  EXPECT_FALSE(plan_tiles(chunks, 640, 360, enough, true).gathered);
+}
+
 // 2^34 entries (what 2^26 chunks of small particles reserve) in 2^12 chunks of large ones: steps are cut before 32 bits end.
 TEST(TilePlan, ReservationsBeyond32BitsAreCutIntoSteps) {
   std::vector<TileChunk> chunks(1u << 12, chunk_at(1.0f, {0, 0}, {255, 255}, {1000, 1000}, 0));

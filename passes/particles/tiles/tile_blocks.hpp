@@ -15,9 +15,14 @@ struct StepBlock {
   std::uint32_t first{}, count{}, others{}, region{}, round{}, slice{}, slices{}, capacity{}, list_capacity{};
   std::uint32_t tiles_x{}, tiles_y{}, level1{}, level2{}, level3{}, width{}, height{}, tile_room{}, spilled{};
   float depth_origin{}, depth_scale{};
-  glm::vec4 material{};
+  glm::vec4 material{}, background{};
+  std::uint32_t place_first{};
 };
-static_assert(sizeof(StepBlock) == 96);
+static_assert(sizeof(StepBlock) == 116);
+
+// With analytic edges, pixels: how far from its center a pixel is met, with what rounding needs (seen.glsl), and the margin of placing.
+constexpr float pixel_reach = 0.52f;
+constexpr double edge_margin = 0.55;
 
 // A corner of a rectangle of tiles: x in bits 0..11, y in 12..23; and tiles of one particle above them.
 inline std::uint32_t pack_corner(glm::uvec2 tile, std::uint32_t most) { return tile.x | tile.y << 12 | (most < 255 ? most : 255u) << 24; }

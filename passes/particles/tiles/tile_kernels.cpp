@@ -23,6 +23,9 @@ gpu::BindGroupLayout layout_of(gpu::Device& device, std::string_view label, std:
   return device.create_bind_group_layout({.label = label, .entries = entries});
 }
 
+// With analytic edges pixels are met beyond their centers; a fiftieth is for rounding.
+float reach_of(const ParticlePipelineKey& key) { return key.edges ? pixel_reach : 0.02f; }
+
 constexpr Type in = Type::ReadOnlyStorageBuffer, io = Type::StorageBuffer;
 constexpr std::array slice_types{in, in, in, in}; // chunk.glsl
 constexpr std::array binning_types{in, in, io, io, io, io, io, io, io, io, io, io, io, io, io}; // binning.glsl, splat.comp
@@ -78,14 +81,14 @@ const gpu::ComputePipeline& TileKernels::place(const PlaceKey& how) {
   if (auto it = places_.find(how); it != places_.end()) return it->second;
   const ParticlePipelineKey& key = how.drawing;
   const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(4, key.per_particle_color), gpu::spec(7, key.proxy_slack), gpu::spec(9, key.paletted), gpu::spec(11, (key.aovs & aov_id_bit) != 0),
-                             gpu::spec(12, how.untested), gpu::spec(17, how.first_slice), gpu::spec(22, how.by_id)};
+                             gpu::spec(12, how.untested), gpu::spec(17, how.first_slice), gpu::spec(21, reach_of(key)), gpu::spec(22, how.by_id)};
   const std::string shader = fmt::format("{}/tiles/place/{}/{}", key.type, lanes(device_), words_);
   return places_.emplace(how, make(shader, binning_pipelines_, constants)).first->second;
 }
 
 const gpu::ComputePipeline& TileKernels::sift(const ParticlePipelineKey& key) {
   if (auto it = sifts_.find(key); it != sifts_.end()) return it->second;
-  const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(7, key.proxy_slack)};
+  const std::array constants{gpu::spec(0, key.orthographic), gpu::spec(7, key.proxy_slack), gpu::spec(21, reach_of(key))};
   return sifts_.emplace(key, make(fmt::format("{}/tiles/sift/{}/{}", key.type, lanes(device_), words_), binning_pipelines_, constants)).first->second;
 }
 
@@ -112,18 +115,19 @@ const gpu::ComputePipeline& TileKernels::shading(const CastKey& key, const Besid
       gpu::spec(5, d.show_depth_violation), gpu::spec(6, d.head_light_only), gpu::spec(10, d.aovs),
       gpu::spec(13, key.one_material), gpu::spec(14, key.color_words), gpu::spec(15, key.want_depth), gpu::spec(16, key.display_only),
       gpu::spec(7, d.proxy_slack), gpu::spec(8, d.type_number), gpu::spec(18, static_cast<std::uint32_t>(d.phase))};
-  if (key.edges) constants.push_back(gpu::spec(21, true));
+  if (key.keep_layers) constants.push_back(gpu::spec(21, true));
   if (key.by_id) constants.push_back(gpu::spec(22, true));
   if (!cast) constants.insert(constants.end(), {gpu::spec(4, d.per_particle_color), gpu::spec(9, d.paletted), gpu::spec(20, what == Shading::SplatsAlone)});
   if (besides.shadows) {
     for (std::uint32_t k = 0; k < s.lights.size(); ++k) constants.push_back(gpu::spec(31 + k, s.lights[k]));
     constants.insert(constants.end(), {gpu::spec(30, s.maps), gpu::spec(35, s.orthographic), gpu::spec(36, s.by_id)});
   }
-  const std::string shader = cast ? fmt::format("{}/tiles/cast/{}/{}", d.type, lanes(device_), words_) : fmt::format("{}/tiles/resolve_splats/{}", d.type, lanes(device_));
+  const std::string shader = cast ? fmt::format("{}/tiles/{}/{}/{}", d.type, d.edges ? "edges" : "cast", lanes(device_), words_) : fmt::format("{}/tiles/resolve_splats/{}", d.type, lanes(device_));
   const auto keep = [&](gpu::ComputePipeline pipeline) -> const gpu::ComputePipeline& { return shadings_.emplace(std::pair(key, what), std::move(pipeline)).first->second; };
   if (!besides.map && !besides.shadows) return keep(make(shader, cast ? cast_pipelines_ : resolve_pipelines_, constants));
 
   std::vector<gpu::ShaderDefine> defines{{"TILES", "1"}, {"LANES", std::to_string(lanes(device_))}, {words_ == "int64" ? "INT64" : "INT32", "1"}};
+  if (d.edges) defines.push_back({"ANALYTIC_EDGES", "1"});
   std::vector<MadeText> made = type_texts(d.type);
   std::vector<const gpu::BindGroupLayout*> sets{&frame_, cast ? &cast_ : &resolve_};
   if (besides.map) {

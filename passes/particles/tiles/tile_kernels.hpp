@@ -19,7 +19,8 @@ namespace mote::passes {
 
 struct CastKey {
   ParticlePipelineKey drawing{}; // type, phase, aovs, projection, lights, model, colors, slack; the rest of it is not looked at
-  bool one_material{}, want_depth{}, display_only{}, edges{};
+  bool one_material{}, want_depth{}, display_only{};
+  bool keep_layers{};            // with drawing.edges: tiles are cast several times with different particles (layers.glsl)
   bool by_id{};                  // phase Shadow: as PlaceKey says
   std::uint32_t color_words{2};  // of a pixel: 1 rgba8unorm, 2 rgba16float, 4 rgba32float; 0: no color
   std::string pixel_map{};       // id of the map that is applied to the color; empty: none

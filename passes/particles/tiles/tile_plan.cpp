@@ -74,7 +74,7 @@ void choose_splats(std::span<TileChunk> chunks) {
   for (TileChunk& chunk : chunks) chunk.side = 0;
 }
 
-TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std::uint32_t height, std::uint32_t most_capacity) {
+TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std::uint32_t height, std::uint32_t most_capacity, bool gather) {
   TilePlan plan;
   plan.tiles_x = (width + tile_size - 1) / tile_size;
   plan.tiles_y = (height + tile_size - 1) / tile_size;
@@ -102,6 +102,11 @@ TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std:
   plan.tile_room = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(std::bit_ceil(2 * average), least_room, most_room));
 
   const auto count = static_cast<std::uint32_t>(chunks.size());
+  plan.gathered = gather && plan.splats == 0 && reserved <= most_capacity;
+  if (plan.gathered) {
+    plan.steps = {{0, count, false, 1}, {0, count, true, 1}};
+    return plan;
+  }
   add_steps(plan, reserved_by, 0, count, false);
   std::uint32_t first = 0;
   if (count > small_scene)

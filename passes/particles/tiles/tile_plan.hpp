@@ -36,6 +36,7 @@ struct TilePlan {
   float depth_first{}, depth_last{}; // the least and the greatest z_min of the chunks
   std::vector<TileStep> steps{};
   std::uint32_t splats{};        // chunks that are drawn by splats: they reserve nothing
+  bool gathered{};               // one step of the others, whose entries join those of the first (work.glsl); each has one round
   [[nodiscard]] std::uint32_t most_rounds() const;
 };
 
@@ -45,7 +46,7 @@ void sort_by_depth(std::vector<TileChunk>& chunks, std::vector<TileChunk>& scrat
 // Takes the sides of splats away where fewer than nine in ten chunks have one: both ways in one picture shade it twice.
 void choose_splats(std::span<TileChunk> chunks);
 
-// `chunks` in depth order; `most_capacity`: entries that memory allows in a round.
-TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std::uint32_t height, std::uint32_t most_capacity);
+// `chunks` in depth order; `most_capacity`: entries that memory allows in a round. `gather`: one round where that is enough.
+TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std::uint32_t height, std::uint32_t most_capacity, bool gather = false);
 
 } // namespace mote::passes

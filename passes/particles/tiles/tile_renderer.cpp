@@ -49,7 +49,7 @@ std::vector<std::uint32_t> background_words(gpu::Color c, std::uint32_t words) {
 ParticlePipelineKey drawing_of(ParticlePipelineKey key, const TileTargets& targets) {
   key.aovs = (targets.depth ? aov_depth_bit : 0u) | (targets.id ? aov_id_bit : 0u) | (targets.normal ? aov_normal_bit : 0u);
   if (targets.shadows) key.head_light_only = false;
-  if (targets.edges) key.proxy_slack = TileEdges::slack;
+  key.edges = targets.edges;
   return key;
 }
 
@@ -59,7 +59,7 @@ bool has_casters(const TileTargets& targets) { return targets.casters || targets
 
 bool TileRenderer::works(const gpu::Device& device, gpu::TextureFormat color) { return TileKernels::lanes(device) != 0 && words_of(color) != 0; }
 
-TileRenderer::TileRenderer(gpu::Device device, const gpu::BindGroupLayout& frame) : device_(device), kernels_(std::move(device), frame), frame_(frame) {}
+TileRenderer::TileRenderer(gpu::Device device, const gpu::BindGroupLayout& frame) : device_(device), kernels_(std::move(device), frame) {}
 
 bool TileRenderer::reserve(gpu::Buffer& buffer, std::string_view label, std::uint64_t bytes, Usage usage) {
   bytes = std::max<std::uint64_t>(bytes, 16);
@@ -69,10 +69,10 @@ bool TileRenderer::reserve(gpu::Buffer& buffer, std::string_view label, std::uin
   return true;
 }
 
-void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t height) {
+void TileRenderer::update(TiledView& view, std::uint32_t width, std::uint32_t height, bool gather) {
   choose_splats(view.chunks);
   sort_by_depth(view.chunks, scratch_);
-  plan_ = plan_tiles(view.chunks, width, height, most_capacity);
+  plan_ = plan_tiles(view.chunks, width, height, most_capacity, gather);
   block_ = {.slices = static_cast<std::uint32_t>(view.slices.size()), .capacity = plan_.capacity, .list_capacity = plan_.list_capacity,
             .tiles_x = plan_.tiles_x, .tiles_y = plan_.tiles_y, .level1 = plan_.level1, .level2 = plan_.level2, .level3 = plan_.level3,
             .width = width, .height = height, .tile_room = plan_.tile_room, .spilled = plan_.level1 * plan_.tile_room + plan_.most_entries,
@@ -114,7 +114,7 @@ void TileRenderer::list_splats(const TiledView& view) {
 
 void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets) {
   Buffers& b = buffers_;
-  const std::uint64_t pixels = std::uint64_t{block_.width} * block_.height, places = std::uint64_t{plan_.list_capacity} * chunk_capacity;
+  const std::uint64_t pixels = std::uint64_t{block_.width} * block_.height, places = std::uint64_t{plan_.gathered ? 2 * plan_.steps.front().count : plan_.list_capacity} * chunk_capacity;
   const std::uint64_t texels = std::uint64_t{plan_.level1} * tile_size * tile_size; // of a map that stays: whole tiles
   const std::uint64_t payload = find_particle_type(key.type)->vec4s_per_payload * sizeof(glm::vec4);
   const Usage storage = Usage::Storage | Usage::CopyDst | Usage::CopySrc;
@@ -125,27 +125,26 @@ void TileRenderer::reserve_frame(const ParticlePipelineKey& key, const TileTarge
   reserve(b.colors, "tiles.colors", places * 8, storage);
   reserve(b.ids, "tiles.ids", targets.id || has_casters(targets) || targets.shadows ? places * 4 : 0, storage);
   // Counts are left at zero by the casts before, unless they are counted elsewhere now: in a picture of another size.
-  tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 12ull, storage) || tiles_of_ != plan_.level1 || tiles_fresh_;
+  tiles_fresh_ = reserve(b.tiles, "tiles.tiles", plan_.level1 * 12ull, storage) || tiles_of_ != plan_.level1 || tiles_fresh_ || plan_.gathered;
   tiles_of_ = plan_.level1;
   reserve(b.far, "tiles.far", (plan_.cells + 3ull * plan_.level1) * 4, storage);
   reserve(b.active, "tiles.active", plan_.level1 * 4ull, storage);
   reserve(b.entries, "tiles.entries", (std::uint64_t{plan_.level1} * plan_.tile_room + 3ull * plan_.most_entries) * 4, storage);
-  reserve(b.nearest, "tiles.nearest", pixels * 4, storage);
+  const bool keep_layers = targets.edges && !plan_.gathered;
+  reserve(b.nearest, "tiles.nearest", targets.edges && plan_.gathered ? 0 : pixels * 4, storage);
+  reserve(b.back_colors, "tiles.back_colors", keep_layers ? pixels * 8 : 0, storage);
   reserve(b.splats, "tiles.splats", plan_.splats != 0 ? pixels * 8 : 0, storage);
   reserve(b.splat_lists, "tiles.splat_lists", plan_.splats * 4ull, storage);
   reserve(b.color, "tiles.color", targets.casters_stay ? 0 : pixels * color_words_ * 4, storage);
   reserve(b.unused_color, "tiles.unused_color", 0, storage);
   reserve(b.encoded, "tiles.encoded_depth", targets.encoded_depth ? pixels * 4 : 0, storage);
   reserve(b.depth, "tiles.depth", targets.depth ? pixels * 4 : 0, storage);
-  reserve(b.id, "tiles.id", targets.casters_stay ? texels * 4 : targets.id || targets.edges ? pixels * 4 : 0, storage);
-  reserve(b.normal, "tiles.normal", targets.normal || targets.edges || targets.casters ? pixels * 16 : targets.casters_stay && !by_id_ ? texels * 16 : 0, storage);
+  reserve(b.id, "tiles.id", targets.casters_stay ? texels * 4 : targets.id ? pixels * 4 : 0, storage);
+  reserve(b.normal, "tiles.normal", keep_layers ? pixels * 32 : targets.normal || targets.casters ? pixels * 16 : targets.casters_stay && !by_id_ ? texels * 16 : 0, storage);
   reserve(b.casters, "tiles.casters", by_id_ ? ids_ * 16 : 0, storage);
-  if (!targets.edges) return;
-  if (!edges_) edges_ = std::make_unique<TileEdges>(device_, frame_);
-  edges_->reserve(pixels);
 }
 
-void TileRenderer::make_groups(const TiledView& view, const gpu::Buffer& winner_colors) {
+void TileRenderer::make_groups(const TiledView& view) {
   auto group = [&](std::string_view label, const gpu::BindGroupLayout& layout, std::initializer_list<const gpu::Buffer*> buffers) {
     std::vector<gpu::BindGroupEntry> entries;
     for (const gpu::Buffer* buffer : buffers) entries.push_back({.binding = static_cast<std::uint32_t>(entries.size()), .buffer = {buffer}});
@@ -160,14 +159,14 @@ void TileRenderer::make_groups(const TiledView& view, const gpu::Buffer& winner_
   const bool narrow = color_words_ == 1;
   cast_group_ = group("tiles.cast", kernels_.cast_layout(),
                       {&b.materials, &b.payloads, &b.colors, &b.ids, &b.tiles, &b.far, &b.active, &b.entries, &b.nearest,
-                       narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color, &winner_colors});
+                       narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color, &b.back_colors});
   resolve_groups_.clear();
   if (plan_.splats == 0) return;
   splat_far_group_ = group("tiles.splat_far", kernels_.splat_far_layout(), {&b.splats, &b.nearest, &b.far});
   for (const SliceBuffers& slice : view.slices)
     resolve_groups_.push_back(group("tiles.resolve", kernels_.resolve_layout(),
                                     {&b.materials, &slice.records, &slice.rows, &slice.colors, &b.chunks, &b.draws, &b.splats, &slice.color_indices, &b.nearest,
-                                     narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color, &winner_colors}));
+                                     narrow ? &b.color : &b.unused_color, &b.encoded, &b.depth, &b.id, &b.normal, narrow ? &b.unused_color : &b.color, &b.back_colors}));
 }
 
 void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& targets) {
@@ -175,9 +174,10 @@ void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& target
   const std::uint32_t pixels = block_.width * block_.height;
   encoder.copy_buffer_to_buffer(b.argument_template, 0, b.arguments, 0, arguments_.size() * 4);
   if (tiles_fresh_) encoder.clear_buffer(b.tiles);
-  tiles_fresh_ = false;
+  tiles_fresh_ = plan_.gathered; // which leaves counts
   encoder.clear_buffer(b.far, 0, 0, infinity_bits);
-  encoder.clear_buffer(b.nearest, 0, std::uint64_t{block_.width} * block_.height * 4, std::bit_cast<std::uint32_t>(infinitely_far));
+  if (!(targets.edges && plan_.gathered)) encoder.clear_buffer(b.nearest, 0, std::uint64_t{pixels} * 4, std::bit_cast<std::uint32_t>(infinitely_far));
+  if (targets.edges && !plan_.gathered) encoder.clear_buffer(b.normal, 0, std::uint64_t{pixels} * 32, std::bit_cast<std::uint32_t>(infinitely_far));
   if (plan_.splats != 0) encoder.clear_buffer(b.splats, 0, std::uint64_t{block_.width} * block_.height * 8, std::bit_cast<std::uint32_t>(infinitely_far));
   if (flags_fresh_) encoder.clear_buffer(b.flags);
   if (targets.encoded_depth) encoder.clear_buffer(b.encoded);
@@ -190,7 +190,6 @@ void TileRenderer::clear(gpu::CommandEncoder& encoder, const TileTargets& target
     encoder.clear_buffer(b.color, 0, 0, no_caster);
   }
   if (!targets.color) return;
-  if (targets.edges) edges_->clear(encoder, b.id);
 
   const gpu::Color background = targets.map ? targets.map->apply(targets.background) : targets.background;
   const std::vector<std::uint32_t> words = background_words(background, color_words_);
@@ -220,8 +219,9 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
   block.count = step.count;
   block.region = regions_[index];
   const bool sifted = step.others && !flags_fresh_;
-  const std::uint32_t others = (step.others ? 1u : 0u) | anew_ << 2 | (sifted ? 32u : 0u);
+  const std::uint32_t others = (step.others ? 1u : 0u) | anew_ << 2 | (sifted ? 32u : 0u) | (plan_.gathered ? 64u : 0u);
   block.others = others;
+  block.place_first = plan_.gathered && step.others ? step.count : 0u;
   auto groups = [](std::uint32_t invocations) { return (invocations + workgroup - 1) / workgroup; };
   auto begin = [&](gpu::ComputePass& pass, const gpu::ComputePipeline& pipeline) {
     pass.set_pipeline(pipeline);
@@ -254,7 +254,7 @@ void TileRenderer::record_step(gpu::CommandEncoder& encoder, std::size_t index, 
   }
   for (std::uint32_t round = 0; tiles && round < step.rounds; ++round) {
     block.round = round;
-    block.others = others | (first_ && round == 0 ? 0u : 2u);
+    block.others = others | (plan_.gathered || (first_ && round == 0) ? 0u : 2u);
     gpu::ComputePass place = encoder.begin_compute_pass({.label = "tiles.place"});
     for (block.slice = 0; block.slice < slices; ++block.slice) {
       placed.paletted = placed.per_particle_color && view.slices[block.slice].paletted;
@@ -347,13 +347,6 @@ void TileRenderer::resolve_splats(gpu::CommandEncoder& encoder, const TiledView&
   }
 }
 
-void TileRenderer::record_edges(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const CastKey& key, const TileTargets& targets, const Mark& mark) {
-  const bool narrow = color_words_ == 1;
-  const Buffers& b = buffers_;
-  edges_->record(encoder, frame_group, block_, targets.background, key, {b.id, b.normal, narrow ? b.color : b.unused_color, narrow ? b.unused_color : b.color}, targets.map, targets.cache_directory);
-  mark("edges");
-}
-
 void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& targets) {
   const gpu::Extent3d size{block_.width, block_.height, 1};
   auto copy = [&](const gpu::Buffer& from, const gpu::Texture& to) {
@@ -372,13 +365,14 @@ void TileRenderer::copy_out(gpu::CommandEncoder& encoder, const TileTargets& tar
 void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, const gpu::BindGroup& frame_group, const ParticlePipelineKey& drawing,
                           const TileTargets& targets, const Mark& mark) {
   color_words_ = targets.color ? words_of(targets.color.format()) : targets.casters ? 4 : targets.casters_stay ? 1 : 0;
+  block_.background = glm::vec4(glm::dvec4(targets.background.r, targets.background.g, targets.background.b, targets.background.a));
   by_id_ = targets.casters_stay && plan_.splats == 0 && ids_ <= most_by_id;
   const CastKey key{.drawing = drawing_of(drawing, targets), .one_material = view.materials.size() == 1, .want_depth = bool(targets.encoded_depth),
               .display_only = color_words_ == 1 && !targets.depth && !targets.id && !targets.normal && !targets.encoded_depth && drawing.phase == Phase::Opaque,
-              .edges = targets.edges, .by_id = by_id_, .color_words = color_words_,
+              .keep_layers = targets.edges && !plan_.gathered, .by_id = by_id_, .color_words = color_words_,
               .pixel_map = targets.map ? targets.map->id : std::string(), .shadows = targets.shadows ? targets.shadows->key() : TileShadows::Key{}};
   reserve_frame(key.drawing, targets);
-  make_groups(view, targets.edges ? edges_->colors() : buffers_.unused_color);
+  make_groups(view);
   clear(encoder, targets);
   mark("clear");
   first_ = true;
@@ -390,7 +384,6 @@ void TileRenderer::record(gpu::CommandEncoder& encoder, const TiledView& view, c
   }
   flags_fresh_ = false;
   resolve_splats(encoder, view, frame_group, key, targets, mark);
-  if (targets.edges) record_edges(encoder, frame_group, key, targets, mark);
   copy_out(encoder, targets);
   mark("copy");
 }

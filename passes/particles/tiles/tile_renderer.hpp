@@ -8,12 +8,10 @@
 
 #include "core/gpu/gpu.hpp"
 #include "passes/particles/particle_store.hpp"
-#include "passes/particles/tiles/tile_edges.hpp"
 #include "passes/particles/tiles/tile_kernels.hpp"
 #include "passes/particles/tiles/tile_plan.hpp"
 
 #include <functional>
-#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -27,7 +25,7 @@ struct TileTargets {
   bool casters_stay{};             // instead, they are left in casters()
   gpu::Color background{};         // scene-linear
   const rg::PixelMap* map{};       // applied to colors and background; `color` is then what the map's pass would write
-  bool edges{};                    // analytic ones, of color: nothing else is drawn then (tile_edges.hpp)
+  bool edges{};                    // analytic ones, of color: nothing else is drawn then (layers.glsl)
   const TileShadows* shadows{};    // of lights; null: no light has a map
   std::string cache_directory{};   // of SPIR-V; empty: none
 };
@@ -38,8 +36,9 @@ public:
   // Whether this device can, with these targets' color format.
   [[nodiscard]] static bool works(const gpu::Device& device, gpu::TextureFormat color);
 
-  // Uploads; before the encoder's passes. Sorts view.chunks by depth. `view` must live until record().
-  void update(TiledView& view, std::uint32_t width, std::uint32_t height);
+  // Uploads; before the encoder's passes. Sorts view.chunks by depth. `view` must live until record(). `gather`: TilePlan::gathered
+  // where it can be.
+  void update(TiledView& view, std::uint32_t width, std::uint32_t height, bool gather);
   // Records everything, the copies to the targets included. `key`: the scene's needs, with the phase.
   // `mark` is told the end of each stage.
   using Mark = std::function<void(std::string_view stage)>;
@@ -52,11 +51,11 @@ public:
 private:
   struct Buffers {
     gpu::Buffer chunks{}, draws{}, materials{}, flags{}, lists{}, arguments{}, argument_template{}, indirect{}, payloads{}, colors{}, ids{}, tiles{},
-        far{}, active{}, entries{}, nearest{}, splats{}, splat_lists{}, color{}, unused_color{}, background{}, encoded{}, depth{}, id{}, normal{}, casters{};
+        far{}, active{}, entries{}, nearest{}, back_colors{}, splats{}, splat_lists{}, color{}, unused_color{}, background{}, encoded{}, depth{}, id{}, normal{}, casters{};
   };
   bool reserve(gpu::Buffer& buffer, std::string_view label, std::uint64_t bytes, gpu::BufferUsage usage);
   void reserve_frame(const ParticlePipelineKey& key, const TileTargets& targets);
-  void make_groups(const TiledView& view, const gpu::Buffer& winner_colors);
+  void make_groups(const TiledView& view);
   void list_splats(const TiledView& view);
   void record_splats(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, const ParticlePipelineKey& placed, const Mark& mark);
   void record_splat_far(gpu::CommandEncoder& encoder, const StepBlock& block, const gpu::BindGroup& frame_group, bool orthographic, const Mark& mark);
@@ -65,13 +64,10 @@ private:
   void clear(gpu::CommandEncoder& encoder, const TileTargets& targets);
   void record_step(gpu::CommandEncoder& encoder, std::size_t index, const TiledView& view, const gpu::BindGroup& frame_group, const CastKey& key,
                    const TileTargets& targets, const Mark& mark);
-  void record_edges(gpu::CommandEncoder& encoder, const gpu::BindGroup& frame_group, const CastKey& key, const TileTargets& targets, const Mark& mark);
   void copy_out(gpu::CommandEncoder& encoder, const TileTargets& targets);
 
   gpu::Device device_;
   TileKernels kernels_;
-  std::unique_ptr<TileEdges> edges_{};
-  gpu::BindGroupLayout frame_;
   TilePlan plan_{};
   Buffers buffers_{};
   std::vector<std::uint32_t> arguments_{}, regions_{}; // the template of all steps' arguments; where each step's start

@@ -31,11 +31,12 @@ bool TiledDrawing::place(gpu::Device device, const ParticleStore& store, const g
   const Scene& scene = selected(wish.scene, wish.selection);
   const std::string type = wish.type.empty() ? type_of_most(scene) : wish.type;
   TilePlacing placing = wish.placing;
-  placing.splats = TileKernels::splats(device, type);
+  placing.splats = !wish.edges && TileKernels::splats(device, type);
+  if (wish.edges) placing.margin = edge_margin;
   store.place_tiles(scene, wish.view, type, placing, tiled_, wish.slot);
   if (tiled_.chunks.empty()) return false;
   if (!tiles_) tiles_ = std::make_unique<TileRenderer>(std::move(device), frame);
-  tiles_->update(tiled_, wish.view.size.width, wish.view.size.height);
+  tiles_->update(tiled_, wish.view.size.width, wish.view.size.height, wish.edges);
   bool mixed = false;
   key_ = key_for_all(scene, wish.view, mixed); // never mixed: why_not() has looked
   key_.type = type;

@@ -28,6 +28,7 @@ struct TileWish {
   std::uint32_t slot{};        // of the store's placements
   float slack{};               // phase Shadow: thinner casters, in pixels, are widened
   TilePlacing placing{};
+  bool edges{};                // analytic ones: record() is told so, too
   bool alarm{};                // magenta where a type from files gives NaN
 };
 

@@ -139,44 +139,57 @@ Proxy tile_proxy(Particle p) { return tile_ball(p.center, tile_radius(p)); }
 // center, |ray| = 1, b = z, q = r^2 - u.u.
 struct TileTest { vec4 a, b, c; };
 
+// The outline runs at q = 0; what q can be at most so near to it as one may run through a ray's pixel: |grad q| <= 2 z r A there,
+// and q falls faster outside, by at most z^2 A u.u. Orthographic: z = A = 1.
+#ifdef ANALYTIC_EDGES
+float tile_band; // in tangents: outline_reach
+float outline_band(float r, float z, float A) { return A * z * tile_band * (2.0 * r + z * tile_band); }
+#else
+float outline_band(float r, float z, float A) { return 0.0; }
+#endif
+
 TileTest tile_test(Particle p, bool alive) {
   float z = p.center.z, r = tile_radius(p), r2 = r * r;
-  if (orthographic) return TileTest(vec4(p.center.xy, alive ? r2 : -1e30, z), vec4(0.0, 0.0, -1.0, -1.0), vec4(0.0));
+  if (orthographic) return TileTest(vec4(p.center.xy, alive ? r2 : -1e30, z), vec4(0.0, 0.0, -1.0, -1.0), vec4(0.0, 0.0, 0.0, outline_band(r, 1.0, 1.0)));
   vec2 m = p.center.xy / z;
   float A = 1.0 + dot(m, m), z2 = z * z;
   return TileTest(vec4(m, alive ? r2 * A : -1e30, z * A),
                   vec4(2.0 * r2 * m, r2 - z2 * (1.0 + m.y * m.y), r2 - z2 * (1.0 + m.x * m.x)),
-                  vec4(2.0 * z2 * m.x * m.y, z * m, 0.0));
+                  vec4(2.0 * z2 * m.x * m.y, z * m, outline_band(r, z, A)));
 }
 
 vec3 normal_at(Ray ray, Particle p, float t) { return (t * ray.direction + (ray.origin - p.center)) * (1.0 / p.radius); }
 
-bool tile_nearer(TileTest s, float x, float y, inout float key) {
+// (q, b) of the pixel of a ray (x, y, 1).
+vec2 tile_terms(TileTest s, float x, float y) {
   float ux = x - s.a.x, uy = y - s.a.y;
-  float q = (s.a.z + ux * (s.b.x + ux * s.b.z)) + uy * ((s.b.y + ux * s.c.x) + uy * s.b.w);
-  float b = (s.a.w + ux * s.c.y) + uy * s.c.z;
-  float entry = b - sqrt(max(q, 0.0));
-  bool nearer = q >= 0.0 && entry < key;
+  return vec2((s.a.z + ux * (s.b.x + ux * s.b.z)) + uy * ((s.b.y + ux * s.c.x) + uy * s.b.w), (s.a.w + ux * s.c.y) + uy * s.c.z);
+}
+
+bool tile_nearer(TileTest s, float x, float y, inout float key) {
+  vec2 t = tile_terms(s, x, y);
+  float entry = t.y - sqrt(max(t.x, 0.0));
+  bool nearer = t.x >= 0.0 && entry < key;
   key = nearer ? entry : key;
   return nearer;
 }
 
+#ifdef ANALYTIC_EDGES
+Meeting tile_meets(TileTest s, float x, float y) {
+  vec2 t = tile_terms(s, x, y);
+  return Meeting(t.y - sqrt(max(t.x, 0.0)), t.x >= 0.0, abs(t.x) < s.c.w);
+}
+
 // As outline() below. Along its gradient the polynomial q is a quadratic again, whose nearer root is where the outline runs.
-#define HAS_TILE_OUTLINE
-Outline tile_outline(Particle p, float x, float y, float focal, out float key) {
+Outline tile_outline(Particle p, float x, float y, float focal) {
   Outline o;
-  float z = p.center.z, r2 = p.radius * p.radius, z2 = z * z;
   vec2 ray = vec2(x, y);
   if (orthographic) {
     vec2 u = ray - p.center.xy;
     float distance = length(u);
-    o.inside = focal * (p.radius - distance);
-    o.inward = distance > 0.0 ? u / -distance : vec2(1.0, 0.0);
-    o.radius = focal * p.radius;
-    o.offset = -focal * u;
-    key = z - sqrt(max(r2 - distance * distance, 0.0));
-    return o;
+    return Outline(focal * (p.radius - distance), distance > 0.0 ? u / -distance : vec2(1.0, 0.0), focal * p.radius, -focal * u);
   }
+  float z = p.center.z, r2 = p.radius * p.radius, z2 = z * z;
   vec2 m = p.center.xy / z, u = ray - m;
   float A = 1.0 + dot(m, m), m_u = dot(m, u);
   float q = r2 * (1.0 + dot(ray, ray)) - z2 * (A * dot(u, u) - m_u * m_u);
@@ -187,9 +200,14 @@ Outline tile_outline(Particle p, float x, float y, float focal, out float key) {
   o.inside = focal * 2.0 * q / (steep + sqrt(max(steep * steep - 2.0 * bend * q, 1e-30)));
   o.radius = focal * p.radius / z;
   o.offset = -focal * u;
-  key = z * (A + m_u) - sqrt(max(q, 0.0));
   return o;
 }
+
+float tile_entry(Particle p, float x, float y) {
+  vec2 t = tile_terms(tile_test(p, true), x, y);
+  return t.y - sqrt(max(t.x, 0.0));
+}
+#endif
 #endif
 #ifdef SHADOW_RAY
 // As below in mask_ids.frag, with less: no distance of a shadow ray is large.

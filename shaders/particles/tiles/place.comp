@@ -32,7 +32,7 @@ struct Taken {
   float depth_origin, depth_scale;
 };
 Taken take() {
-  return Taken(take_reach(), step.tiles_x, step.tile_room, scatter_arguments(step.round) + 3u, step.spilled, step.depth_origin, step.depth_scale);
+  return Taken(take_reach(), step.tiles_x, step.tile_room, list_counter(), step.spilled, step.depth_origin, step.depth_scale);
 }
 
 // Record `lane` of a chunk: placed, kept for the cast, and filed, if it is to be drawn. Is it not hidden?
@@ -82,7 +82,7 @@ void main() {
   uint from = sifted(step.others) ? sifted_at(step.round, step.slice) + sifted_words * gl_WorkGroupID.x : list_at(step.round, step.slice) + gl_WorkGroupID.x;
   uint own = lists[from + (gl_LocalInvocationID.x & 3u)];
   Chunk chunk = load_chunk(subgroupShuffle(own, 0u));
-  chunk.place = (chunks_before() + gl_WorkGroupID.x) * chunk_capacity;
+  chunk.place = (step.place_first + chunks_before() + gl_WorkGroupID.x) * chunk_capacity;
   uvec2 these = uvec2(subgroupShuffle(own, 1u), subgroupShuffle(own, 2u)), kept = uvec2(0u);
   if (!sifted(step.others)) these = others ? uvec2(0xFFFFFFFFu) : words(flags[chunk.flag]);
   Taken u = take();

@@ -8,7 +8,7 @@
 layout(local_size_x = 64) in;
 
 void main() {
-  if (gl_GlobalInvocationID.x >= arguments[scatter_arguments(step.round) + 3u]) return;
+  if (gl_GlobalInvocationID.x >= arguments[list_counter()]) return;
   uint which = step.spilled + 2u * gl_GlobalInvocationID.x, tile = entries[which];
   entries[atomicAdd(tiles[tile_cursor(tile)], 1u)] = entries[which + 1u];
 }

@@ -33,9 +33,11 @@ struct Reach {
 };
 Reach take_reach() { return Reach(frame.viewport.z, frame.sample_near_far.xy, vec2(float(step.width), float(step.height)) - 1.0); }
 
-// The tiles whose pixel centers the proxy may cover, as (lo, hi); empty where lo.x > hi.x. A pixel's margin of 1/64.
+layout(constant_id = 21) const float pixel_reach = 0.02; // how far from its center a pixel is met; a fiftieth for rounding
+
+// The tiles whose pixels the proxy may meet, as (lo, hi); empty where lo.x > hi.x.
 uvec4 tile_rect(Reach u, Proxy bounds) {
-  vec2 lo = bounds.lo * u.focal - u.offset - 0.02, hi = bounds.hi * u.focal - u.offset + 0.02;
+  vec2 lo = bounds.lo * u.focal - u.offset - pixel_reach, hi = bounds.hi * u.focal - u.offset + pixel_reach;
   vec2 first = max(ceil(lo), vec2(0.0)), last = min(floor(hi), u.last_pixel);
   bool empty = !(first.x <= last.x && first.y <= last.y);
   uvec2 tile_lo = uvec2(first) >> 3, tile_hi = uvec2(max(last, vec2(0.0))) >> 3;

@@ -8,6 +8,9 @@
 // a second go (scatter). Then each tile is cast (cast). Between steps the farthest depth of every tile, and of blocks of
 // tiles, hides what lies behind (far).
 //
+// A frame whose entries fit in one round is *gathered* where that is asked for: a step's entries join those of the step before, and tiles
+// that got any are cast anew from all. So no cast needs to know what another has left in a pixel.
+//
 // Chunks whose particles all cover at most three pixel centers in x and in y are not filed: each of their particles writes
 // itself where it is nearest (splat), with atomic minima of 64 bits, and what stands at the frame's end is shaded then
 // (resolve_splats). Before other chunks are tested, tiles learn how far the splats in them reach (splat_far).
@@ -34,7 +37,7 @@ layout(push_constant) uniform StepBlock {
   uint first, count;        // placed chunks of this step
   uint others;              // bit 0: not the particles that were seen in frames before but the rest, tested against the depth so far;
                             // bit 1: something was cast before in this frame; bits 2..4: chunks of which number look anew (looks_anew);
-                            // bit 5: what cull has chosen is sifted
+                            // bit 5: what cull has chosen is sifted; bit 6: the frame is gathered
   uint region;              // of this step's arguments, in uints: one cursor, then a block for each round
   uint round;
   uint slice, slices;       // buffers of records
@@ -47,6 +50,8 @@ layout(push_constant) uniform StepBlock {
   uint spilled;             // where the list of entries without a place starts in `entries`
   float depth_origin, depth_scale; // of entries' steps of depth
   vec4 material;            // of all batches, with one_material
+  vec4 background;          // with analytic edges: scene-linear
+  uint place_first;         // in a gathered frame: places of chunks that earlier steps may have taken
 } step;
 
 // Words of a placed chunk, a chunk of one instance that the view may see:
@@ -84,11 +89,14 @@ uint round_arguments(uint round) { return splat_far_arguments() + 4u + round * 4
 uint slice_arguments(uint round, uint slice) { return round_arguments(round) + 4u * slice; }
 uint allocate_arguments(uint round) { return round_arguments(round) + 4u * step.slices; }
 uint cast_arguments(uint round) { return round_arguments(round) + 4u * (step.slices + 1u); }
-uint scatter_arguments(uint round) { return round_arguments(round) + 4u * (step.slices + 2u); } // its 4th: entries on the list
+uint scatter_arguments(uint round) { return round_arguments(round) + 4u * (step.slices + 2u); } // its 4th: list_counter()
 
 uint sift_arguments(uint round, uint slice) { return round_arguments(round) + 4u * (step.slices + 3u + slice); }
 
 bool sifted(uint others) { return (others & 32u) != 0u; }
+bool gathered(uint others) { return (others & 64u) != 0u; }
+// How many entries are on the list: of this round, or of the frame (counted where its first step starts).
+uint list_counter() { return scatter_arguments(step.round) + 3u - (gathered(step.others) ? step.region : 0u); }
 // Chunks that cull has taken: placed chunks, a word each; and what sift has left of them: three words each, with the bits of particles.
 const uint sifted_words = 3u;
 uint list_at(uint round, uint slice) { return (round * step.slices + slice) * (1u + sifted_words) * step.list_capacity; }
