@@ -102,7 +102,7 @@ TilePlan plan_tiles(std::span<const TileChunk> chunks, std::uint32_t width, std:
   plan.tile_room = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(std::bit_ceil(2 * average), least_room, most_room));
 
   const auto count = static_cast<std::uint32_t>(chunks.size());
-  plan.gathered = gather && plan.splats == 0 && reserved <= most_capacity;
+  plan.gathered = gather && count != 0 && plan.splats == 0 && reserved <= most_capacity;
   if (plan.gathered) {
     plan.steps = {{0, count, false, 1}, {0, count, true, 1}};
     return plan;

@@ -15,6 +15,7 @@ namespace {
 using Usage = gpu::BufferUsage;
 constexpr std::uint32_t most_capacity = 1u << 21;     // entries of a round: 24 MiB of them, 20 MiB of placed particles
 static_assert((most_capacity / 256 + 1) * chunk_capacity <= 1u << 20); // place_bits of work.glsl
+static_assert(2 * (most_capacity / 256) * chunk_capacity <= 1u << 20); // of a gathered frame: each chunk may be taken by both steps
 constexpr float last_depth_step = 4095;               // as in work.glsl
 constexpr float infinitely_far = 3e38f;               // as in cast.comp
 constexpr std::uint32_t no_caster = 0xFFFFFFFFu;      // every word of a texel without one

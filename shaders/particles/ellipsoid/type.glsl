@@ -29,10 +29,10 @@ vec3 outward_normal(Ray ray, Particle p, Interval hit, bool exit) {
   return normal_from_own((fine.high + fine.low) * (gradient * (least(p.size) / p.size)));
 }
 
-// The distance to the surface point behind the nearest one: never less than the true one.
+// To first order: with q = |x / size| the surface is (q - 1) / |grad q| away, which is never more than the true distance, since q is convex.
 bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
-  float beyond = max(length(hit.local.xyz), 1.0);
-  return least(p.size) < radius && length(hit.local.xyz * p.size) * (1.0 - 1.0 / beyond) < radius;
+  float q = length(hit.local.xyz);
+  return least(p.size) < radius && (q - 1.0) * q < radius * length(hit.local.xyz / p.size);
 }
 Outline outline(Ray ray, Particle p, Interval hit) { Interval again; return sampled_outline(intersect(ray, p, again)); }
 

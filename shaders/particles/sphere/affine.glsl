@@ -55,8 +55,8 @@ vec3 half_axis_lengths(Particle p) { return abs(unit_lengths()) * p.radius; }
 // As the ellipsoid's (ellipsoid/type.glsl).
 bool passes_thin(Ray ray, Particle p, Interval hit, float radius) {
   vec3 lengths = half_axis_lengths(p);
-  float beyond = max(length(hit.local.xyz), 1.0);
-  return min(lengths.x, min(lengths.y, lengths.z)) < radius && length(hit.local.xyz * lengths) * (1.0 - 1.0 / beyond) < radius;
+  float q = length(hit.local.xyz);
+  return min(lengths.x, min(lengths.y, lengths.z)) < radius && (q - 1.0) * q < radius * length(hit.local.xyz / lengths);
 }
 
 // The ellipse that shows of it, in pixels: the longer half axis and the radius of a disc of equal area. In perspective that of the
