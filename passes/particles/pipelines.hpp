@@ -37,7 +37,7 @@ struct ParticlePipelineKey {
   bool opaque_only{}; // particles of alpha below 1 draw as nothing
   DrawStates states{};
   float proxy_slack{}; // pixels
-  bool edges{};        // phase Surface: coverage, too
+  bool edges{};        // phase Surface: coverage, too; by tiles: layers (tiles/layers.glsl)
   bool box{};          // expansion Geometry: faces of a box in place of a rectangle
   std::uint32_t written{0xFFFFFFFF}; // targets from this one on are left alone
   Step step{Step::Depth};            // phase Opaque, without AOVs

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Analytic edges by tiles: a cast keeps three layers of each pixel. The back is the nearest particle that covers the pixel's center. Before
-// it lie the two nearest whose outline runs through the pixel, which cover a part of it in closed form (common/coverage.glsl); what
-// such a one hides of the back it hides of the other, too (method book, 8.4: of more outlines, coverages are no alphas). Outlines
-// beyond the second count as covered or not, by the pixel's center. Colors are blended in scene-linear light.
+// it lie the two nearest whose outline runs through the pixel, which cover a part of it in closed form (common/coverage.glsl) and are
+// blended as if they did so independently (method book, 8.4: coverages that overlap are correlated). Outlines beyond the second count
+// as covered or not, by the pixel's center. Colors are blended in scene-linear light.
 //
 // Where a frame casts a tile several times with different particles (keep_layers), layers are kept between casts: the back's key (Keys)
 // and color, and of each of the other two four words: key, color and coverage as half floats, whether it covers the center. A layer that
